@@ -7,41 +7,42 @@
 
 namespace BL_SOLVER {
 
-/// Volume of the mixture that a fluid particle represents, m3.
-BL_HD Real mixture_volume(const EosState<>& state) { return state.mass_over_eps / state.rho; }
+/// Volume of the mixture that a fluid particle represents, m3, by the mass M = mass / porosity that it has in
+/// its volume and its density.
+template <class N>
+BL_HD N mixture_volume(const N& M, const N& rho) {
+  return quotient(M, rho);
+}
+BL_HD Real mixture_volume(const EosState<>& state) { return mixture_volume(state.mass_over_eps, state.rho); }
 
-/// Data of a fluid particle that grains read in addition to its velocity, packed for few loads.
+/// Data of a fluid particle that grains read in addition to its place, M, velocity and density, packed for
+/// few loads.
 struct FluidRecords {
   Span<Real4> push;    ///< of PushPass
-  Span<Real4> solids;  ///< porosity; density, kg/m3; weight of the solids around that count next to orifices
+  Span<Real> counted;  ///< weight of the solids around that counts next to orifices; empty without these
 };
 
 /// The stress on the mixture around each fluid particle as far as it counts grains, f_a M_a theta_a, N, theta
-/// being the acceleration by stress; w: volume of the mixture, m3.
+/// being the acceleration by stress; w: porosity.
 struct PushPass {
   Span<const Real> solid_factor;
   Span<const Real3> stress_acceleration;
   Span<const EosState<>> eos_state;
+  Span<const Real> eps;  ///< empty where nobody reads it
   Span<Real4> push;
 
   BL_HD void operator()(Index a) const {
-    const EosState<> m = eos_state[a];
-    push[a] = {solid_factor[a] * m.mass_over_eps * stress_acceleration[a], mixture_volume(m)};
+    push[a] = {solid_factor[a] * eos_state[a].mass_over_eps * stress_acceleration[a], eps ? eps[a] : Real(1)};
   }
 };
 
-struct RecordPass {
-  PushPass push;
+struct CountedPass {
   Frame frame;
-  OrificeWeight counted;
+  OrificeWeight weight;
   Span<const FluidPosition> x;
-  Span<const Real> eps;
-  Span<Real4> solids;
+  Span<Real> counted;
 
-  BL_HD void operator()(Index a) const {
-    push(a);
-    solids[a] = {eps[a], push.eos_state[a].rho, counted(coordinates(frame, x[a])), 0};
-  }
+  BL_HD void operator()(Index a) const { counted[a] = weight(coordinates(frame, x[a])); }
 };
 
 }  // namespace BL_SOLVER

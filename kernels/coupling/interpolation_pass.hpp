@@ -49,15 +49,18 @@ struct InterpolationPass {
     sum.own = averages.own(j);
     return sum;
   }
-  BL_HD auto sources() const { return sources_of(v_rho, fluid.push, fluid.solids); }
+  BL_HD auto sources() const {
+    const Span<const Real> counted = fluid.counted;
+    return sources_of(v_rho, fluid.push, read_where(bool(counted), counted, Real(1)));
+  }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_ja, N r2, N, const VelocityDensity<N>& a, const Vec4<N>& push,
-                  const Vec4<N>& solids) const {
-    const N W_ja = averages.W(w, sum.own, root(r2)), vw = push.w * W_ja;
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_ja, N r2, N M, const VelocityDensity<N>& a,
+                  const Vec4<N>& push, const N& counted) const {
+    const N W_ja = averages.W(w, sum.own, root(r2)), vw = mixture_volume(M, a.rho) * W_ja;
     const Vec3<N> u = a.v - sum.v_grain;
-    sum.eps += vw * solids.x;
-    sum.rho += vw * solids.y;
-    sum.counted += vw * solids.z;
+    sum.eps += vw * push.w;
+    sum.rho += vw * a.rho;
+    sum.counted += vw * counted;
     if constexpr (Moments) sum.turn -= W_ja * cross(r_ja, push.xyz());
     sum.flow.template add<Moments>(vw, u, -r_ja);
     if constexpr (Local) {

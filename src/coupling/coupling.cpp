@@ -131,6 +131,7 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       torque_(p.couple.torque),
       angmom_(p.couple.angmom),
       local_slip_(p.couple.slip == DragSlip::local),
+      near_orifices_(!p.orifices.empty()),
       walls_(p.couple.wall_normalise ? walls.view() : SurfaceSet{}) {
   with_coupling_kernel([&](auto w) {
     half_space_ = HalfSpaceFraction::of(w);
@@ -153,7 +154,7 @@ GrainSurroundings Coupling::surroundings() {
           .lost_moment = lost_moment_};
 }
 PushPass Coupling::push_pass(const FluidStore& fluid) {
-  return {fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, push_};
+  return {fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, {}, push_};
 }
 
 template <bool Local, class Law>
@@ -199,13 +200,11 @@ void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose
   volumes(grains, pose, 0);
   grains.x_before.copy(grains.x);
   of_fluid_.resize(fluid.size());
-  const FluidRecords records{push_, solids_};
-  for_each(fluid.all(), RecordPass{.push = push_pass(fluid),
-                                   .frame = frame_,
-                                   .counted = orifice_weight(),
-                                   .x = fluid.x,
-                                   .eps = fluid.eps,
-                                   .solids = solids_});
+  const FluidRecords records{push_, span_if(near_orifices_, counted_)};
+  PushPass push = push_pass(fluid);
+  push.eps = fluid.eps;
+  for_each(fluid.all(), push);
+  if (records.counted) for_each(fluid.all(), CountedPass{frame_, orifice_weight(), fluid.x, records.counted});
   const GrainSurroundings around = surroundings();
   with_averages([&](auto w, auto averages) {
     with_flag(moments(), [&](auto with_moments) {

@@ -189,6 +189,7 @@ class Coupling {
   Real eps_min_, S_dry_, S_wet_;
   GrainMatter matter_;
   bool two_way_, counts_grains_, torque_, angmom_, local_slip_;
+  bool near_orifices_;                ///< whether there are any
   std::optional<StiffestDrag> drag_;  ///< as last read
   Buffer<StiffestDrag> stiffest_;
   bool surveyed_ = false;  ///< a survey has not been read yet
@@ -222,7 +223,8 @@ class Coupling {
   ScratchArray<SymmetricMatrix<Real>> stress_inv_M_{of_grains_, moments()},
       drag_inv_M_{of_grains_, moments()};
   ScratchArray<Real> lever_sum_{of_grains_, angmom_};
-  ScratchArray<Real4> push_{of_fluid_}, solids_{of_fluid_};
+  ScratchArray<Real4> push_{of_fluid_};
+  ScratchArray<Real> counted_{of_fluid_, near_orifices_};
 };
 
 }  // namespace BL_SOLVER

@@ -85,6 +85,17 @@ std::vector<To> converted(const std::vector<From>& from) {
   return to;
 }
 
+/// Places as pair loops read them, with M.
+struct PackFluid {
+  Frame frame;
+  Span<const FluidPosition> x;
+  Span<const EosState<>> state;
+  Span<PairPosition> xp;
+  BL_HD void operator()(Index a) const {
+    xp[a] = pair_position(frame, coordinates(frame, x[a]), state[a].mass_over_eps);
+  }
+};
+
 /// Both stores, sorted into cells, with a coupling whose lists are built.
 struct CoupledBox {
   Config config;
@@ -127,7 +138,7 @@ struct CoupledBox {
     if (sort_grains) grains.reorder(order);
     fluid.x_list.buffer().assign(fluid.x.values());
     grains.x_list.buffer().assign(grains.x.values());
-    for_each(fluid.all(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
+    for_each(fluid.all(), PackFluid{frame, fluid.x, fluid.eos_state, fluid.xp});
     coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains,
                            {grain_grid.view(), sort_grains ? Span<const Index>() : order.span(), levels},
                            kSkin * coupling.range() / 2);

@@ -164,8 +164,8 @@ TEST(Interpolation, IsTheMeanOverTheFluidAndItsLostMoment) {
   const double W[2] = {double(w.W(Real(0.05))), double(w.W(Real(0.08)))};
   const double vw[2] = {0.2, 0.1}, S = 0.3;
   std::vector<VelocityDensity<>> v_rho{{{3, 0, 0}, 1000}, {{1, 4, 0}, 900}};
-  std::vector<Real4> push{{0, 2, 0, Real(vw[0] / W[0])}, {0, 0, 5, Real(vw[1] / W[1])}};
-  std::vector<Real4> solids{{Real(0.8), 1000, 1, 0}, {Real(0.5), 900, Real(0.25), 0}};
+  std::vector<Real4> push{{0, 2, 0, Real(0.8)}, {0, 0, 5, Real(0.5)}};
+  std::vector<Real> counted{1, Real(0.25)}, M{Real(1000 * vw[0] / W[0]), Real(900 * vw[1] / W[1])};
   std::vector<Real3> v{{1, 0, 0}}, force{{0, 0, 7}}, arm{{}}, moment{{}};
   std::vector<Real4> volume{{0, 0, 0, 2}};
   std::vector<Real> free{Real(0.6)}, eps{0}, bed_eps{0}, inv_S{0}, rho{0}, fast_slip{0};
@@ -175,7 +175,7 @@ TEST(Interpolation, IsTheMeanOverTheFluidAndItsLostMoment) {
                                                        .S_least = Real(0.01),
                                                        .eps_min = Real(0.3),
                                                        .v_rho = all(v_rho),
-                                                       .fluid = {all(push), all(solids)},
+                                                       .fluid = {all(push), all(counted)},
                                                        .v = all(v),
                                                        .fluid_force = all(force),
                                                        .volume = all(volume),
@@ -191,7 +191,7 @@ TEST(Interpolation, IsTheMeanOverTheFluidAndItsLostMoment) {
                                                                         .drag = {},
                                                                         .lost_moment = all(moment)}};
   auto sum = pass.start(0);
-  for (int a = 0; a < 2; ++a) pass.pair(sum, r[a], norm2(r[a]), Real(0), v_rho[a], push[a], solids[a]);
+  for (int a = 0; a < 2; ++a) pass.pair(sum, r[a], norm2(r[a]), M[a], v_rho[a], push[a], counted[a]);
   pass.finish(0, sum);
   EXPECT_NEAR(inv_S[0], 1 / S, 10 * kNear);
   EXPECT_NEAR(eps[0], (0.2 * 0.8 + 0.1 * 0.5) / S, kNear);
