@@ -301,15 +301,12 @@ void Coupling::survey(const FluidStore& fluid, const GrainStore& grains) {
                             lever_sums(grains.owned().size())};
   const Range all{0, max_of(fluid.owned().size(), grains.owned().size())};
   surveyed_ = true;
-  stiffest_.resize(1);
-  if (all.size() > 0) return reduce_into(stiffest_.data(), all, largest);
-  const StiffestDrag none = largest.identity();
-  copy_to_device(stiffest_.data(), &none, sizeof none);
+  stiffest_.take(all, largest);
 }
 
 void Coupling::read_survey() {
   if (!std::exchange(surveyed_, false)) return;
-  drag_ = all_reduce(stiffest_.to_host()[0],
+  drag_ = all_reduce(stiffest_.read(),
                      [](StiffestDrag& into, const StiffestDrag& more) { LargestRate::larger(into, more); });
 }
 

@@ -23,6 +23,7 @@
 #include "bedload/neighbours/for_each_piece.hpp"
 #include "bedload/neighbours/level_lists.hpp"
 #include "bedload/neighbours/pairing.hpp"
+#include "bedload/parallel/reading.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/scratch.hpp"
@@ -191,7 +192,7 @@ class Coupling {
   bool two_way_, counts_grains_, torque_, angmom_, local_slip_;
   bool near_orifices_;                ///< whether there are any
   std::optional<StiffestDrag> drag_;  ///< as last read
-  Buffer<StiffestDrag> stiffest_;
+  Reading<StiffestDrag> stiffest_;
   bool surveyed_ = false;  ///< a survey has not been read yet
   bool limits_ = false;    ///< whether drag is faster than the step
 

@@ -277,8 +277,6 @@ void FluidSolver::correct(FluidStore& fluid, double kick) {
 }
 
 void FluidSolver::survey(FluidStore& fluid, double kick) {
-  extremes_.resize(1);
-  if (fluid.owned().size() == 0) return extremes_.assign({FluidExtremes{}});
   MeanShear listed = shear_;
   listed.strain = listed_strain_;
   const double longest = longest_step();
@@ -287,29 +285,28 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
   };
   const double most = std::max(strained(0), strained(longest));
   const Span<const Real> none;
-  reduce_into(extremes_.data(), fluid.owned(),
-              CorrectSweep{.fluid = motion(fluid),
-                           .kick = Real(kick),
-                           .acc_old = fluid.acc_next,
-                           .acc = fluid.acc,
-                           .eps = span_if(parameters_.mixed, fluid.eps),
-                           .viscosity = span_if(parameters_.thickens, fluid.viscosity),
-                           .compression = fluid.compression,
-                           .drift = drift_of(fluid),
-                           .x_list = fluid.x_list,
-                           .half_skin = fluid.half_skin,
-                           .longest = longest,
-                           .spread = most * range(),
-                           .strained = most,
-                           .h = lengths_ ? Span<const Real>(lengths_->h) : none,
-                           .h_list = lengths_ ? Span<const Real>(lengths_->h_list) : none,
-                           .listed = listed,
-                           .id = fluid.id});
+  extremes_.take(fluid.owned(), CorrectSweep{.fluid = motion(fluid),
+                                             .kick = Real(kick),
+                                             .acc_old = fluid.acc_next,
+                                             .acc = fluid.acc,
+                                             .eps = span_if(parameters_.mixed, fluid.eps),
+                                             .viscosity = span_if(parameters_.thickens, fluid.viscosity),
+                                             .compression = fluid.compression,
+                                             .drift = drift_of(fluid),
+                                             .x_list = fluid.x_list,
+                                             .half_skin = fluid.half_skin,
+                                             .longest = longest,
+                                             .spread = most * range(),
+                                             .strained = most,
+                                             .h = lengths_ ? Span<const Real>(lengths_->h) : none,
+                                             .h_list = lengths_ ? Span<const Real>(lengths_->h_list) : none,
+                                             .listed = listed,
+                                             .id = fluid.id});
 }
 
 FluidExtremes FluidSolver::extremes() const {
-  FluidExtremes out = all_reduce(
-      extremes_.to_host()[0], [](auto& into, const auto& from) { CorrectSweep::bound(into, from); });
+  FluidExtremes out =
+      all_reduce(extremes_.read(), [](auto& into, const auto& from) { CorrectSweep::bound(into, from); });
   if (!std::isfinite(out.h_min)) out.h_min = parameters_.fluid.h();  // one length, or no fluid
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "bedload/neighbours/pairing.hpp"
 #include "bedload/parallel/compact.hpp"
+#include "bedload/parallel/reading.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/scratch.hpp"
@@ -435,7 +436,7 @@ class FluidSolver {
 #endif
   Pairing<> fluid_wall_, wall_fluid_, image_fluid_;
   Pairing<> wall_wall_;  ///< of frozen walls whose density is summed up
-  Buffer<FluidExtremes> extremes_;
+  Reading<FluidExtremes> extremes_;
   Buffer<Index> order_;
   Buffer<Index> beside_walls_;                       ///< fluid with wall particles around it
   Buffer<Index> wet_walls_;                          ///< wall particles with fluid around them

@@ -7,7 +7,6 @@
 
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/integrate/grain_substep.hpp"
-#include "kernels/integrate/grain_sums.hpp"
 #include "kernels/stress/coarse_fields.hpp"
 #include "src/solids/arriving_contacts.hpp"
 
@@ -104,12 +103,15 @@ void SolidSolver::load(const std::vector<Quantity>& scalars) {
 
 // -- limits ------------------------------------------------------------------
 
-GrainWatch SolidSolver::watch(const GrainStore& g) const {
+void SolidSolver::begin_watch(const GrainStore& g) {
   GrainView grains = view(g);
   grains.mass_per_r3 = matter_.of(g);
-  const WatchReduction watch{grains, g.x_list, g.drag_coefficient};
-  const auto v = all_reduce(reduce(g.owned(), watch),
-                            [&](auto& into, const auto& of_rank) { watch.combine(into, of_rank); });
+  watched_.take(g.owned(), WatchReduction{grains, g.x_list, g.drag_coefficient});
+}
+
+GrainWatch SolidSolver::watch() const {
+  const auto v = all_reduce(watched_.read(),
+                            [](auto& into, const auto& of_rank) { WatchReduction{}.combine(into, of_rank); });
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 

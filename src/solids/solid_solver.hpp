@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "bedload/neighbours/level_lists.hpp"
+#include "bedload/parallel/reading.hpp"
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/scratch.hpp"
 #include "bedload/particles/walls.hpp"
 #include "bedload/simulation.hpp"
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/contact/registry.hpp"
+#include "kernels/integrate/grain_sums.hpp"
 #include "kernels/integrate/relaxation.hpp"
 #include "kernels/stress/pair_moment.hpp"
 #include "src/solids/clumps.hpp"
@@ -102,11 +104,17 @@ class SolidSolver {
   /// Fluid flows around the grains: advance() takes its forces from fluid_force, its torques (N m) from here.
   void flow_around(const Field<Real3>& torque) { fluid_torque_ = &torque; }
 
-  GrainWatch watch(const GrainStore& grains) const;
+  GrainWatch watch(const GrainStore& grains) {
+    begin_watch(grains);
+    return watch();
+  }
+  /// The same in two steps: what the first queues, the second waits for.
+  void begin_watch(const GrainStore& grains);
+  GrainWatch watch() const;
   /// All limits on a substep, of which the caller takes the least.
   std::vector<StepLimit> limits(const GrainWatch& watch) const;
   StepLimit stable_dt(const GrainWatch& watch) const { return least_of(limits(watch)); }
-  StepLimit stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
+  StepLimit stable_dt(const GrainStore& grains) { return stable_dt(watch(grains)); }
 
   /// Contact forces at the present positions with dt = 0; also the loads on free
   /// bodies. poses: [bodies] on the device. For a new run only: a loaded state contains its forces.
@@ -283,6 +291,7 @@ class SolidSolver {
   void (SolidSolver::*evaluate_pieces_)(const ContactPass&) = nullptr;
   void (SolidSolver::*evaluate_walls_)(const WallContacts&, const ContactLoads&) = nullptr;
 
+  Reading<WatchReduction::Value> watched_;
   SizeLevels levels_;
   LevelLists level_lists_;
   VerletList list_, old_list_;

@@ -294,6 +294,7 @@ void Stepper::sweep() {
                   x.y, x.z, clock_.time, static_cast<long long>(clock_.step));
     throw SimulationFault(what + text + cause);
   };
+  if (has_grains()) solid_solver_->begin_watch(grains_);  // waited for with the fluid's
   if (has_fluid()) {
     fluid_extremes_ = fluid_solver_->extremes();
     if (const Id bad = fluid_extremes_.bad; bad != kNone)
@@ -302,7 +303,7 @@ void Stepper::sweep() {
             "time step too large, or fluid overlapping walls or grains at the start");
   }
   if (has_grains()) {
-    grain_watch_ = solid_solver_->watch(grains_);
+    grain_watch_ = solid_solver_->watch();
     if (const Id bad = grain_watch_.bad; bad != kNone)
       fault("grain " + std::to_string(bad), place_of(bad, grains_, frame_),
             "its position or velocity became NaN; likely causes: overlapping grains at the start or "
