@@ -185,8 +185,8 @@ Repeat time_steps(Simulation& simulation, int steps, Frames* frames = nullptr, i
     repeat.rebuilds += info.rebuilt;
     if (frames && (k + 1) % every == 0) frames->write(simulation, info);
   }
+  repeat.stages = simulation.time_spent();  // waits for the last step
   repeat.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  repeat.stages = simulation.time_spent();
   for (std::size_t k = 0; k < before.size(); ++k) repeat.stages[k].value -= before[k].value;
   return repeat;
 }

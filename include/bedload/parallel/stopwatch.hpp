@@ -2,6 +2,7 @@
 // How long the parts of a step take where the solver computes.
 
 #include <array>
+#include <utility>
 #if !BL_CUDA
 #include <chrono>
 #endif
@@ -11,7 +12,8 @@
 namespace BL_SOLVER {
 
 /// Times work that is queued in parts, one after another: a lap ends one part and begins the next. On a GPU
-/// the marks lie between the kernels, so that the host need not wait for each part.
+/// the marks lie between the kernels, so that the host need not wait for each part; those of one run of the
+/// watch are read in the next one, when the device has work again.
 class Stopwatch {
  public:
   static constexpr int kMostLaps = 16;  ///< between start and stop
@@ -19,10 +21,12 @@ class Stopwatch {
 
 #if BL_CUDA
   Stopwatch() {
-    for (cudaEvent_t& mark : marks_) check_cuda(cudaEventCreate(&mark), "timing");
+    for (Run* run : {&now_, &last_})
+      for (cudaEvent_t& mark : run->marks) check_cuda(cudaEventCreate(&mark), "timing");
   }
   ~Stopwatch() {
-    for (cudaEvent_t mark : marks_) cudaEventDestroy(mark);
+    for (Run* run : {&now_, &last_})
+      for (cudaEvent_t mark : run->marks) cudaEventDestroy(mark);
   }
 #else
   Stopwatch() = default;
@@ -31,46 +35,72 @@ class Stopwatch {
   Stopwatch& operator=(const Stopwatch&) = delete;
 
   void start() {
-    laps_ = 0;
+    now_.laps = 0;
     mark();
   }
   /// What has been queued since the last mark belonged to `part`; after kMostLaps - 1 of them no time
   /// is recorded.
   void lap(int part) {
-    if (laps_ + 1 >= kMostLaps) return;
-    part_[laps_++] = part;
+    if (now_.laps + 1 >= kMostLaps) return;
+    now_.part[now_.laps++] = part;
     mark();
+    if (now_.laps == 2) read_last();
   }
-  /// Adds the laps since start() up; waits for the last of them.
   void stop() {
-    if (laps_ == 0) return;
-#if BL_CUDA
-    check_cuda(cudaEventSynchronize(marks_[laps_]), "timing");
-#endif
-    for (int k = 0; k < laps_; ++k) seconds_[part_[k]] += between(k);
+    read_last();
+    std::swap(now_, last_);
   }
 
-  /// Spent in a part so far, s.
-  double seconds(int part) const { return seconds_[part]; }
+  /// Spent in a part so far, s. Waits for the last lap.
+  double seconds(int part) const {
+    double all = seconds_[part];
+    last_.each([&](int of, double s) { all += of == part ? s : 0; });
+    return all;
+  }
 
  private:
+  /// From start to stop.
+  struct Run {
 #if BL_CUDA
-  void mark() { check_cuda(cudaEventRecord(marks_[laps_], Context::current().stream()), "timing"); }
-  double between(int k) const {
-    float ms = 0;
-    check_cuda(cudaEventElapsedTime(&ms, marks_[k], marks_[k + 1]), "timing");
-    return 1e-3 * ms;
-  }
-  std::array<cudaEvent_t, kMostLaps> marks_{};
+    double between(int k) const {
+      float ms = 0;
+      check_cuda(cudaEventElapsedTime(&ms, marks[k], marks[k + 1]), "timing");
+      return 1e-3 * ms;
+    }
+    void wait() const { check_cuda(cudaEventSynchronize(marks[laps]), "timing"); }
+    std::array<cudaEvent_t, kMostLaps> marks{};
 #else
-  using Clock = std::chrono::steady_clock;
-  void mark() { marks_[laps_] = Clock::now(); }
-  double between(int k) const { return std::chrono::duration<double>(marks_[k + 1] - marks_[k]).count(); }
-  std::array<Clock::time_point, kMostLaps> marks_{};
+    using Clock = std::chrono::steady_clock;
+    double between(int k) const { return std::chrono::duration<double>(marks[k + 1] - marks[k]).count(); }
+    void wait() const {}
+    std::array<Clock::time_point, kMostLaps> marks{};
 #endif
-  std::array<int, kMostLaps> part_{};
+    std::array<int, kMostLaps> part{};
+    int laps = 0;
+
+    /// f(part, s) for each lap.
+    template <class F>
+    void each(const F& f) const {
+      if (laps == 0) return;
+      wait();
+      for (int k = 0; k < laps; ++k) f(part[k], between(k));
+    }
+  };
+
+  void mark() {
+#if BL_CUDA
+    check_cuda(cudaEventRecord(now_.marks[now_.laps], Context::current().stream()), "timing");
+#else
+    now_.marks[now_.laps] = Run::Clock::now();
+#endif
+  }
+  void read_last() {
+    last_.each([&](int part, double s) { seconds_[part] += s; });
+    last_.laps = 0;
+  }
+
+  Run now_, last_;
   std::array<double, kMostParts> seconds_{};
-  int laps_ = 0;
 };
 
 }  // namespace BL_SOLVER
