@@ -76,6 +76,8 @@ struct PorosityPass {
   Span<EosState<>> eos_state;
   Span<PairPosition> xp, xp_mid;  ///< whose weights follow the porosity; xp_mid may be empty
 
+  static constexpr bool kSideBySide = true;
+
   template <class N = Real>
   struct Sum {
     N solid;

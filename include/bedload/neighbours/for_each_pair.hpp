@@ -127,6 +127,12 @@ constexpr bool kFades = requires {
   typename Pass::template Sum<Real>;
 };
 
+/// A pass of few registers, which can wait for what it reads of two neighbours at a time.
+template <class Pass>
+constexpr bool kSideBySide = requires {
+  Pass::kSideBySide;
+};
+
 template <class Pass>
 unsigned pass_lane_bits(const Pass&, const VerletList& list) {
   return Mergeable<Pass> ? list.view().bits : 0;
@@ -200,8 +206,15 @@ struct ListRow {
       const std::uint32_t n = list.count[i];
       if constexpr (Mergeable<Pass>) {  // the list was built for as many lanes
         const Index* entry = list.entry + list.slot(i, lane.index);
+        std::uint32_t k = lane.index;
+        if constexpr (kSideBySide<Pass>)
+          for (; k + lane.count < n; k += 2 * lane.count, entry += 2 * VerletListView::kTurn) {
+            const Index j[2] = {entry[0], entry[VerletListView::kTurn]};
+            visit(i, j[0], f);
+            visit(i, j[1], f);
+          }
         Index next = *entry;
-        for (std::uint32_t k = lane.index; k < n; k += lane.count) {
+        for (; k < n; k += lane.count) {
           const Index j = next;
           entry += VerletListView::kTurn;
           next = *entry;  // while this pair is worked on; after the last row there is space for it
