@@ -95,6 +95,10 @@ TEST(Drying, ABedThatStandsOutOfTheWaterIsLiftedByWhatIsUnderIt) {
   }
   const double expected = under * M_PI / 6 * d * d * d * 9810;
   EXPECT_NEAR(lift, expected, 0.01 * expected);
+  box.relist(true, nullptr, poses);  // walls at rest: only grains beside them are asked
+  box.coupling.porosity(box.fluid, box.grains, poses, 0);
+  box.coupling.gather(box.fluid, box.grains, poses, 1e-4);
+  EXPECT_EQ(box.grains.wetness.values(), wet);
 }
 
 TEST(Drying, AGrainWithoutAnyFluidFeelsNothing) {

@@ -124,8 +124,9 @@ struct CoupledBox {
     if (levels.count() > 1) relist(true, &levels);
     return levels.count();
   }
-  /// Sorts both phases and renews the lists; or grains stay as they are stored.
-  void relist(bool sort_grains = true, SizeLevels* levels = nullptr) {
+  /// Sorts both phases and renews the lists; or grains stay as they are stored. still: poses of walls that
+  /// never move.
+  void relist(bool sort_grains = true, SizeLevels* levels = nullptr, Span<const BodyPose> still = {}) {
     CellGrid fluid_grid(frame, config.domain.min, config.domain.max, coupling.range() / 2);
     CellGrid grain_grid(frame, config.domain.min, config.domain.max, coupling.range() / 2);
     Buffer<Index> order;
@@ -141,7 +142,7 @@ struct CoupledBox {
     for_each(fluid.all(), PackFluid{frame, fluid.x, fluid.eos_state, fluid.xp});
     coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains,
                            {grain_grid.view(), sort_grains ? Span<const Index>() : order.span(), levels},
-                           kSkin * coupling.range() / 2);
+                           kSkin * coupling.range() / 2, still);
   }
 
   std::vector<Vec3d> fluid_places() const {
