@@ -74,11 +74,11 @@ Span<BodyPose> WallMotion::rows(double t, double dt, int n, Rows& out) {
   const std::size_t bytes = rows.size() * sizeof(BodyPose);
   if (out.device.size() < rows.size()) out.device.resize(rows.size() * 2);
   const Span<BodyPose> device{out.device.data(), Index(rows.size())};
-  // walls at rest are where they were, and a copy would wait for the device
+  // walls at rest are where they were
   const bool there = !free_.any() && rows.size() <= out.host.size() &&
                      std::memcmp(static_cast<const void*>(rows.data()), out.host.data(), bytes) == 0;
   if (!there) {
-    copy_to_device(device.data, rows.data(), bytes);
+    out.sending.copy(device.data, rows.data(), rows.size());
     out.host.swap(rows);
   }
   if (free_.any()) free_.write(device, bodies(), n + 1, t);

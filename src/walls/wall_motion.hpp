@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bedload/parallel/loops.hpp"
+#include "bedload/parallel/sending.hpp"
 #include "bedload/particles/walls.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/parameters.hpp"
@@ -54,6 +55,7 @@ class WallMotion {
   struct Rows {
     std::vector<BodyPose> host;
     Buffer<BodyPose> device;
+    Sending<BodyPose> sending;
   };
   Span<BodyPose> rows(double t, double dt, int n, Rows& out);
 
