@@ -203,8 +203,9 @@ void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose
   const FluidRecords records{push_, span_if(near_orifices_, counted_)};
   PushPass push = push_pass(fluid);
   push.eps = fluid.eps;
-  for_each(fluid.all(), push);
-  if (records.counted) for_each(fluid.all(), CountedPass{frame_, orifice_weight(), fluid.x, records.counted});
+  beside_grains_.each(fluid.all(), push);
+  if (records.counted)
+    beside_grains_.each(fluid.all(), CountedPass{frame_, orifice_weight(), fluid.x, records.counted});
   const GrainSurroundings around = surroundings();
   with_averages([&](auto w, auto averages) {
     with_flag(moments(), [&](auto with_moments) {
@@ -380,7 +381,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
 
 void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
   of_fluid_.resize(fluid.size());
-  for_each(fluid.all(), push_pass(fluid));
+  beside_grains_.each(fluid.all(), push_pass(fluid));
   with_averages([&](auto w, auto averages) {
     over_fluid(BuoyancyPass<decltype(w), decltype(averages)>{w, averages, push_, volume_, buoyancy_});
   });

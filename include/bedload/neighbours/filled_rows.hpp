@@ -21,22 +21,38 @@ struct EmptyRowPass {
   }
 };
 
+/// A loop over some of its indices.
+template <class F>
+struct SomeOfLoop {
+  Span<const Index> some;
+  F f;
+  BL_HD void operator()(Index k) const { f(some[k]); }
+};
+
 /// The rows of a list that have entries: lanes share these, one thread is enough for each of the others.
 class FilledRows {
  public:
   /// After the list was built. Waits for the device where there are many rows.
   void find(const VerletList& list) {
     rows_.resize(0);
-    apart_ = list.rows() >= kMany;
+    listed_ = list.rows();
+    apart_ = listed_ >= kMany;
     if (!apart_) return;
-    find_all(list.rows(), HasEntries{list.view()}, rows_);
-    apart_ = rows_.size() < list.rows() / 4 * 3;
+    find_all(listed_, HasEntries{list.view()}, rows_);
+    apart_ = rows_.size() < listed_ / 4 * 3;
   }
   template <class Pass>
   void run(const Pairing<>& pairs, const Pass& pass) const {
     if (!apart_) return pairs.run(pass);
     pairs.run_for(rows_, pass);
     for_each(pairs.targets(), EmptyRowPass<Pass>{pairs.list().view(), pass});
+  }
+  /// f(i) for all rows with entries, at least, and for what has no row in the list.
+  template <class F>
+  void each(Range all, const F& f) const {
+    if (!apart_) return for_each(all, f);
+    for_each({0, Index(rows_.size())}, SomeOfLoop<F>{rows_, f});
+    for_each({listed_, all.end}, f);
   }
 
  private:
@@ -46,6 +62,7 @@ class FilledRows {
   static constexpr Index kMany = 1;
 #endif
   bool apart_ = false;
+  Index listed_ = 0;
   Buffer<Index> rows_;
 };
 
