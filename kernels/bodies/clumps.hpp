@@ -41,8 +41,8 @@ struct ClumpView {
 /// The grains of each clump in the order of its spheres, in pieces short enough for one thread.
 struct ClumpPieces {
   static constexpr Index kPiece = 32;
-  Span<const Index> grain;  ///< index of each, clump after clump
-  Span<const Index> begin;  ///< [pieces + 1] in `grain`
+  Span<const Index> place;  ///< of each among the gains, clump after clump
+  Span<const Index> begin;  ///< [pieces + 1] in `place`
   Span<const Index> first;  ///< [clumps + 1] of the pieces
 };
 
@@ -54,6 +54,26 @@ struct PlaceClumpsPass {
   BL_HD void operator()(Index i) const {
     if (clump[i] > 0) grain[slot[clump[i] - 1] + member[i]] = i;
   }
+};
+
+/// The same on several ranks, each of which has some of the grains.
+struct InClump {
+  Span<const std::uint32_t> clump;
+  BL_HD bool operator()(Index i) const { return clump[i] > 0; }
+};
+/// Which of all grains of clumps each is, clump after clump.
+struct SlotPass {
+  Span<const Index> grain;
+  Span<const std::uint32_t> clump, member;
+  Span<const Index> first;  ///< of each clump, the first of its grains
+  Span<std::uint32_t> slot;
+  BL_HD void operator()(Index k) const { slot[k] = first[clump[grain[k]] - 1] + member[grain[k]]; }
+};
+/// Notes where it is.
+struct PlaceMembersPass {
+  Span<const std::uint32_t> slot;
+  Span<Index> place;
+  BL_HD void operator()(Index k) const { place[slot[k]] = k; }
 };
 
 /// How many grains and pieces each clump has, and where the pieces begin.
@@ -131,37 +151,63 @@ struct ClumpIds {
   BL_HD void operator()(Index i) const { out[i] = clump[i] > 0 ? id[clump[i] - 1] : 0; }
 };
 
-/// Momentum and angular momentum about the centre of their clump that the grains of a piece have gained since
-/// they last followed it, stored as force and torque; N s and N m s.
+/// a + b, where b is rounded before, by all compilers: never a fused sum of a product.
+BL_HD double sum_of_rounded(double a, double b) {
+#if defined(__CUDA_ARCH__)
+  return __dadd_rn(a, b);
+#else
+  asm("" : "+m"(b));
+  return a + b;
+#endif
+}
+
+/// Momentum and angular momentum about the centre of its clump that a grain has gained since it last followed
+/// it, N s and N m s. Their sum has the same bits whether they have been stored or not.
+struct Gain {
+  Vec3d momentum, angular;
+  BL_HD void add_to(LoadSum& all) const {
+    for (int k = 0; k < 3; ++k) {
+      all.sum[k] = sum_of_rounded(all.sum[k], momentum[k]);
+      all.sum[3 + k] = sum_of_rounded(all.sum[3 + k], angular[k]);
+    }
+  }
+};
+
+/// Of each grain.
 struct GainPass {
   ClumpView all;
-  ClumpPieces pieces;
+  Span<const Index> grain;  ///< those of clumps
   MassPerR3 mass_per_r3;
   Span<const Real> radius;
   Velocities<const Real3> now, rest;  ///< rest may be empty
-  LoadSum* gained;                    ///< [pieces]
-  BL_HD void operator()(Index piece) const {
-    const Index begin = pieces.begin[piece];
-    if (begin == pieces.begin[piece + 1]) return;
-    gained[piece] = of(piece, all.motion(all.clump[pieces.grain[begin]] - 1));
+  Span<Vec3d> momentum, angular;
+  BL_HD void operator()(Index k) const {
+    const Gain gain = of(k, all.motion(all.clump[grain[k]] - 1));
+    momentum[k] = gain.momentum, angular[k] = gain.angular;
   }
   /// Of one whose clump moves like this.
-  BL_HD LoadSum of(Index piece, const ClumpView::Motion& motion) const {
-    LoadSum sum = LoadSum::zero();
-    for (Index slot = pieces.begin[piece]; slot < pieces.begin[piece + 1]; ++slot)
-      add(pieces.grain[slot], motion, sum);
-    return sum;
-  }
-
- private:
-  BL_HD void add(Index i, const ClumpView::Motion& motion, LoadSum& sum) const {
+  BL_HD Gain of(Index k, const ClumpView::Motion& motion) const {
+    const Index i = grain[k];
     const double R = radius[i], m = mass_per_r3(i) * R * R * R;
     const Vec3d v_rest = rest.v ? Vec3d(rest.v[i]) : Vec3d{},
                 omega_rest = rest.v ? Vec3d(rest.omega[i]) : Vec3d{};
     const Vec3d lever = motion.turn.rotate(all.arm[i]);
     const Vec3d by_force = m * (Vec3d(now.v[i]) - Vec3d(Real3(motion.velocity(lever))) + v_rest);
     const Vec3d by_torque = 0.4 * m * R * R * (Vec3d(now.omega[i]) - Vec3d(Real3(motion.omega)) + omega_rest);
-    sum.add(by_force, cross(lever, by_force) + by_torque);
+    return {by_force, cross(lever, by_force) + by_torque};
+  }
+};
+
+/// The sums of pieces, stored as force and torque.
+struct SumGainsPass {
+  ClumpPieces pieces;
+  Span<const Vec3d> momentum, angular;
+  LoadSum* gained;  ///< [pieces]
+  BL_HD void operator()(Index piece) const {
+    LoadSum sum = LoadSum::zero();
+    for (Index slot = pieces.begin[piece]; slot < pieces.begin[piece + 1]; ++slot)
+      Gain{momentum[pieces.place[slot]], angular[pieces.place[slot]]}.add_to(sum);
+    gained[piece] = sum;
   }
 };
 
@@ -173,6 +219,7 @@ struct MoveClumpsPass {
   Vec3d fall;    ///< velocity that gravity gave the grains, m/s: it does not turn a clump
   double drift;  ///< s
   BL_HD void operator()(Index c) const {
+    if (first[c] == first[c + 1]) return;
     LoadSum sum = LoadSum::zero();
     for (Index piece = first[c]; piece < first[c + 1]; ++piece) LoadSum::combine(sum, gained[piece]);
     move(c, sum);
@@ -207,19 +254,22 @@ struct FollowPass {
   }
 };
 
-/// All three for clumps of one piece: each has its motion read and found once.
+/// All of this for clumps of one piece where this rank has all grains: each has its motion read and found
+/// once.
 struct ClumpPass {
-  GainPass gain;
+  GainPass gain;  ///< its grains clump after clump
+  Span<const Index> begin;
   MoveClumpsPass move;
   FollowPass grains;
   BL_HD void operator()(Index c) const {
     const Index piece = move.first[c];
     if (piece == move.first[c + 1]) return;
-    move.move(c, gain.of(piece, grains.all.motion(c)));
-    const ClumpView::Motion motion = grains.all.motion(c);
-    const ClumpPieces& of = gain.pieces;
-    for (Index slot = of.begin[piece]; slot < of.begin[piece + 1]; ++slot)
-      grains.follow(of.grain[slot], motion);
+    LoadSum sum = LoadSum::zero();
+    ClumpView::Motion motion = grains.all.motion(c);
+    for (Index k = begin[piece]; k < begin[piece + 1]; ++k) gain.of(k, motion).add_to(sum);
+    move.move(c, sum);
+    motion = grains.all.motion(c);
+    for (Index k = begin[piece]; k < begin[piece + 1]; ++k) grains.follow(gain.grain[k], motion);
   }
 };
 

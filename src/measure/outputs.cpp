@@ -304,6 +304,7 @@ struct Coming {
   HostStore take() {
     std::exchange(there, nullptr)->wait();
     leave_out(removed, store);
+    if (store.name == "clumps") order_by_id(store);
     return std::move(store);
   }
 
@@ -367,6 +368,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
   if (name == "contacts" && state_.has_grains) return stepper_.solids().contact_lines(state_.grains);
   HostStore out = outputs(name, kFrames, nullptr);
   if (name == "walls") leave_out(removed_walls(), out);
+  if (name == "clumps" && out.count > 0) order_by_id(out);
   return out;
 }
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
+#include <utility>
 
 #include "bedload/geometry/body.hpp"
+#include "bedload/parallel/compact.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "bedload/parallel/sort.hpp"
 #include "src/walls/free_bodies.hpp"
 
@@ -27,6 +31,31 @@ struct Joined {
   }
 };
 
+/// Grain of a rigid group.
+struct Member {
+  Id id;
+  std::uint32_t kind;
+  double radius;  ///< m
+  Vec3d arm;      ///< m
+};
+
+/// Those of all ranks.
+std::vector<Member> gathered(std::vector<Member> own) {
+  Link* const link = Context::current().link();
+  if (!link) return own;
+  const std::vector<std::size_t> count = all_gather(own.size());
+  const std::size_t most = *std::max_element(count.begin(), count.end());
+  if (most == 0) return own;
+  own.resize(most);
+  std::vector<Member> padded(most * count.size()), all;
+  link->all_gather(own.data(), padded.data(), most * sizeof(Member));
+  for (std::size_t r = 0; r < count.size(); ++r) {
+    const auto first = padded.begin() + std::ptrdiff_t(r * most);
+    all.insert(all.end(), first, first + std::ptrdiff_t(count[r]));
+  }
+  return all;
+}
+
 /// Sum of the cubes of the radii.
 double cubes(const ClumpShape& shape) {
   double sum = 0;
@@ -35,6 +64,21 @@ double cubes(const ClumpShape& shape) {
 }
 
 }  // namespace
+
+std::vector<Index> order_by_id(HostStore& clumps) {
+  std::vector<Index> order(clumps.count), place(clumps.count);
+  const Id* const id = clumps.find("id")->as<Id>();
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return id[a] < id[b]; });
+  for (Index k = 0; k < Index(order.size()); ++k) place[order[k]] = k;
+  for (HostArray& a : clumps.arrays) {
+    const HostBytes from = a.bytes;
+    const std::size_t size = clumps.count > 0 ? from.size() / clumps.count : 0;
+    for (std::size_t k = 0; k < clumps.count; ++k)
+      std::memcpy(a.bytes.data() + size * k, from.data() + size * order[k], size);
+  }
+  return place;
+}
 
 Clumps::Clumps(const SolidParameters& parameters, const Frame& frame, GrainStore& grains)
     : kinds_(parameters.clumps), plane_(parameters.plane), frame_(frame), matter_(parameters.materials) {
@@ -49,8 +93,8 @@ Clumps::Clumps(const SolidParameters& parameters, const Frame& frame, GrainStore
 
 void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
   if (!any()) return;
-  const auto x = grains.x.values();
-  const auto radius = grains.radius.values();
+  const std::vector<Vec3d>& x = setup.x;
+  const std::vector<Real> radius(setup.radius.begin(), setup.radius.end());
   Joined all;
   all.clump.resize(x.size()), all.member.resize(x.size()), all.arm.resize(x.size());
   std::vector<std::uint32_t> kind_of;  // each fill
@@ -92,7 +136,12 @@ void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
       all.arm[i] = size * Vec3d{s[0], s[1], s[2]};
     }
   }
-  clump_->assign(all.clump), member_->assign(all.member), arm_->assign(all.arm);
+  Joined here;
+  for (const Id id : grains.id.values()) {
+    here.clump.push_back(all.clump[id]), here.member.push_back(all.member[id]);
+    here.arm.push_back(all.arm[id]);
+  }
+  clump_->assign(here.clump), member_->assign(here.member), arm_->assign(here.arm);
   store_.resize(Index(all.kind.size()));
   std::vector<Id> id(all.kind.size());
   std::iota(id.begin(), id.end(), Id(1));
@@ -109,29 +158,31 @@ void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
   for_each(grains.owned(), FollowPass{view(), frame_, grains.x, {grains.v, grains.omega}, {}});
 }
 
-/// Sums over grains in the order of ids so that the result does not depend on sorting.
+/// Sums over grains of all ranks in the order of ids, so that the result does not depend on sorting.
 void Clumps::measure(const GrainStore& grains) {
   const auto id = grains.id.values();
   const auto radius = grains.radius.values();
   const auto clump = clump_->values(), kind = store_.kind.values();
   const auto arm = arm_->values();
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < id.size(); ++i)
-    if (clump[i] > 0 && !kinds_[kind[clump[i] - 1]].shape) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  std::vector<Member> members;
+  for (Index i = 0; i < grains.owned().size(); ++i)
+    if (clump[i] > 0 && !kinds_[kind[clump[i] - 1]].shape)
+      members.push_back({id[i], kind[clump[i] - 1], radius[i], arm[i]});
+  members = gathered(std::move(members));
+  std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return a.id < b.id; });
   std::vector<MassProperties> sums(kinds_.size());
   for (auto& s : sums) s.inertia.fill(0);
-  for (const std::size_t i : order) {
-    const std::uint32_t k = kind[clump[i] - 1];
-    MassProperties& s = sums[k];
-    const double R = radius[i], m = matter_.per_r3(kinds_[k].material) * R * R * R, own = 0.4 * m * R * R;
-    s.mass += m;
-    const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, arm[i]);
-    for (int n = 0; n < 6; ++n) s.inertia[n] += grain[n];
-  }
   for (ClumpKind& k : kinds_)
     if (!k.shape) k.spheres = 0;
-  for (const std::size_t i : order) ++kinds_[kind[clump[i] - 1]].spheres;
+  for (const Member& member : members) {
+    ClumpKind& k = kinds_[member.kind];
+    MassProperties& s = sums[member.kind];
+    const double R = member.radius, m = matter_.per_r3(k.material) * R * R * R, own = 0.4 * m * R * R;
+    s.mass += m;
+    const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, member.arm);
+    for (int n = 0; n < 6; ++n) s.inertia[n] += grain[n];
+    ++k.spheres;
+  }
   bodies_.clear();
   std::vector<Vec3d> offsets;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
@@ -159,7 +210,7 @@ void Clumps::measure(const GrainStore& grains) {
 void Clumps::cut_pieces() {
   Buffer<Index> grains(store_.size()), pieces(store_.size());
   for_each(store_.owned(), CountPiecesPass{store_.kind.span(), spheres_, grains, pieces});
-  grain_.resize(exclusive_scan(grains, slot_));
+  place_.resize(exclusive_scan(grains, slot_));
   const Index count = exclusive_scan(pieces, first_);
   begin_.resize(count + 1), gained_.resize(count);
   for_each(store_.owned(), BeginPiecesPass{slot_, first_, begin_});
@@ -208,6 +259,26 @@ void Clumps::add(const std::vector<NewClump>& more, GrainStore& grains, Range co
 
 void Clumps::place(const GrainStore& grains) {
   if (!any()) return;
+  if (!Context::current().several()) return sort(grains);
+  find_all(grains.owned().size(), InClump{clump_->span()}, grain_);
+  const Index own = Index(grain_.size());
+  members_.resize(own);
+  for_each(members_.owned(), SlotPass{grain_, clump_->span(), member_->span(), slot_, members_.slot});
+  members_.count();
+  const Index ranks = Index(Context::current().ranks()), rank = Index(Context::current().rank());
+  std::vector<Index> of_rank{0}, places;
+  for (Index r = 0; r < ranks; ++r) {
+    for (Index k = 0; r != rank && k < own; ++k) places.push_back(k);
+    of_rank.push_back(Index(places.size()));
+  }
+  Buffer<Index> sent;
+  sent.assign(places);
+  members_.make_ghosts(of_rank, sent);
+  for_each(members_.all(), PlaceMembersPass{std::as_const(members_.slot).span(), place_});
+}
+
+void Clumps::sort(const GrainStore& grains) {
+  grain_.resize(place_.size());
   for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
   Buffer<std::uint32_t> keys(store_.size());
   Buffer<Index> order;
@@ -216,6 +287,9 @@ void Clumps::place(const GrainStore& grains) {
   reorder(order, grains);
   cut_pieces();
   for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
+  if (one_piece_) return;
+  members_.resize(Index(grain_.size()));
+  for_each(members_.owned(), FillIndex{place_});
 }
 
 ClumpView Clumps::view() const {
@@ -232,19 +306,26 @@ ClumpView Clumps::view() const {
 }
 
 void Clumps::follow(GrainStore& g, const Velocities<Real3>& rest, double drift, const Vec3d& fall) {
-  if (!any() || g.size() == 0) return;
+  if (!any() || store_.size() == 0) return;
   const ClumpView all = view();
   const GainPass gain{.all = all,
-                      .pieces = {grain_, begin_, first_},
+                      .grain = grain_,
                       .mass_per_r3 = matter_.of(g),
                       .radius = g.radius,
                       .now = {g.v, g.omega},
                       .rest = {rest.v, rest.omega},
-                      .gained = gained_.data()};
+                      .momentum = members_.momentum,
+                      .angular = members_.angular};
   const MoveClumpsPass move{all, first_, gained_.data(), fall, drift};
   const FollowPass grains{all, frame_, g.x, {g.v, g.omega}, rest};
-  if (one_piece_) return for_each(store_.owned(), ClumpPass{gain, move, grains});
-  for_each({0, Index(gained_.size())}, gain);
+  if (in_one_pass()) return for_each(store_.owned(), ClumpPass{gain, begin_, move, grains});
+  for_each(members_.owned(), gain);
+  members_.momentum.set_shared(false), members_.angular.set_shared(false);
+  members_.share({&members_.momentum, &members_.angular});
+  for_each({0, Index(gained_.size())}, SumGainsPass{{place_, begin_, first_},
+                                                    std::as_const(members_.momentum).span(),
+                                                    std::as_const(members_.angular).span(),
+                                                    gained_.data()});
   for_each(store_.owned(), move);
   for_each(g.owned(), grains);
 }
@@ -267,23 +348,34 @@ RigidMotion Clumps::motion(int k) const {
 }
 
 LoadSum Clumps::by_contacts(int k, const GrainStore& g) const {
-  return reduce(
+  return total(
       g.owned(),
       ClumpLoadReduction{
           .all = view(), .of = Index(k), .force = g.force, .torque = g.torque, .more = {}, .per_torque = 1});
 }
 
 LoadSum Clumps::by_fluid(int k, const GrainStore& g, double dt) const {
-  return reduce(g.owned(), ClumpLoadReduction{.all = view(),
-                                              .of = Index(k),
-                                              .force = g.fluid_force,
-                                              .torque = g.spin_impulse,
-                                              .more = g.drag_force,
-                                              .per_torque = dt > 0 ? 1 / dt : 0});
+  return total(g.owned(), ClumpLoadReduction{.all = view(),
+                                             .of = Index(k),
+                                             .force = g.fluid_force,
+                                             .torque = g.spin_impulse,
+                                             .more = g.drag_force,
+                                             .per_torque = dt > 0 ? 1 / dt : 0});
 }
 
 void Clumps::save(std::vector<HostStore>& stores) const {
-  if (any()) stores.push_back(store_.save());
+  if (!any()) return;
+  HostStore clumps = store_.save();
+  const std::vector<Index> place = order_by_id(clumps);
+  for (HostStore& store : stores) {
+    if (store.name != "grains") continue;
+    for (HostArray& a : store.arrays) {
+      if (a.name != clump_->name) continue;
+      for (std::size_t i = 0; i < store.count; ++i)
+        if (std::uint32_t& clump = a.as<std::uint32_t>()[i]; clump > 0) clump = 1 + place[clump - 1];
+    }
+  }
+  stores.push_back(std::move(clumps));
 }
 
 void Clumps::load(const HostStore& clumps, const GrainStore& grains) {

@@ -24,6 +24,19 @@ struct ClumpStore : Store {
   Field<double> scale{*this, "scale", "m", Lifetime::kept, Output{.order = 4, .name = "diameter"}};
 };
 
+/// Grains of clumps that this rank has, and behind them those of the others; and what they gain in a substep.
+struct MemberStore : Store {
+  MemberStore() : Store("members") {}
+  Field<std::uint32_t> slot{*this, "slot", "-", Lifetime::kept};
+  Field<Vec3d> momentum{*this, "momentum", "N s", Lifetime::derived};
+  Field<Vec3d> angular{*this, "angular", "N m s", Lifetime::derived};
+};
+
+/// Puts clumps of a frame or checkpoint in the order of their ids. Returns where each has come to.
+std::vector<Index> order_by_id(HostStore& clumps);
+
+/// One rank sorts clumps as their grains. Several each have all clumps, in one order, and move them by what
+/// the grains of all ranks gain, in the order of their spheres.
 class Clumps {
  public:
   /// Adds the fields of membership to `grains`: construct before the store is filled or loaded.
@@ -57,8 +70,14 @@ class Clumps {
   static double size_of(const ClumpShape& shape, const std::vector<Real>& radii);
   /// Adds clumps, and moves their grains, `come`, to where they belong.
   void add(const std::vector<NewClump>& more, GrainStore& grains, Range come);
-  /// After a sort: clumps are sorted as their grains.
+  /// After a sort of grains.
   void place(const GrainStore& grains);
+
+  /// Bytes of a grain.
+  std::size_t scratch_bytes() const {
+    if (!any()) return 0;
+    return sizeof(Index) + (in_one_pass() ? 0 : members_.entry_bytes() + sizeof(Index));
+  }
 
   /// Moves the clumps after every grain was kicked, and drifted by `drift` (s), on its own; the grains
   /// follow. Rest: low parts of the velocities, may be empty. fall: what gravity added to velocities, m/s.
@@ -80,6 +99,7 @@ class Clumps {
     return {&store_.x, &store_.v, &store_.angular_momentum, &store_.rotation};
   }
   ClumpView view() const;
+  /// After `grains` has been saved, whose clumps get other numbers there.
   void save(std::vector<HostStore>& stores) const;
   /// After `grains` has been loaded.
   void load(const HostStore& clumps, const GrainStore& grains);
@@ -88,6 +108,9 @@ class Clumps {
   /// Mass and inertia of the kinds, of size 1 m.
   void measure(const GrainStore& grains);
   void cut_pieces();
+  /// Sorts clumps as their grains.
+  void sort(const GrainStore& grains);
+  bool in_one_pass() const { return one_piece_ && !Context::current().several(); }
   /// Gives the grains the numbers of their clumps when these places are all that is kept, in that order.
   void reorder(Span<const Index> kept, const GrainStore& grains);
 
@@ -101,11 +124,14 @@ class Clumps {
   mutable ClumpStore store_;
   Buffer<RigidBody> constants_;
   Buffer<Vec3d> offsets_;
-  Buffer<Index> spheres_;                       ///< of each kind
-  Buffer<std::uint32_t> shaped_;                ///< of ClumpKeyPass
-  bool one_piece_ = true;                       ///< every clump is
-  Buffer<Index> slot_, grain_, begin_, first_;  ///< of PlaceClumpsPass and ClumpPieces
-  Buffer<LoadSum> gained_;                      ///< [pieces]
+  Buffer<Index> spheres_;                ///< of each kind
+  Buffer<std::uint32_t> shaped_;         ///< of ClumpKeyPass
+  bool one_piece_ = true;                ///< every clump is
+  MemberStore members_;                  ///< none where ClumpPass does without
+  Buffer<Index> grain_;                  ///< of each member that this rank has
+  Buffer<Index> slot_;                   ///< of PlaceClumpsPass and SlotPass
+  Buffer<Index> place_, begin_, first_;  ///< of ClumpPieces
+  Buffer<LoadSum> gained_;               ///< [pieces]
 };
 
 }  // namespace BL_SOLVER

@@ -311,7 +311,8 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
       reduce(g.owned(), all), [&](T::Value& into, const T::Value& of_rank) { all.combine(into, of_rank); });
   if (clumps_.any()) {
     const auto bound =
-        sum_over<ClumpTotals::kSums>(clumps_.store().owned(), ClumpTotals{clumps_.view(), frame_});
+        sum_over<ClumpTotals::kSums>(Context::current().rank() == 0 ? clumps_.store().owned() : Range{},
+                                     ClumpTotals{clumps_.view(), frame_});
     for (int k = 0; k < ClumpTotals::kSums; ++k) v.sum[k] += bound.v[k];
   }
   GrainTotals t;

@@ -132,7 +132,8 @@ class SolidSolver {
 
   ParticleBytes scratch_bytes() const {
     const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
-    return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0) +
+    return {.grains = of_grains_.entry_bytes() + clumps_.scratch_bytes() +
+                      (books_ ? EnergyBooks::kScratch : 0) +
                       (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
             .near_grains = sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
                            (books_ ? sizeof(ContactAction) : 0) + (spectra_ ? 2 * sizeof(ContactLoss) : 0) +

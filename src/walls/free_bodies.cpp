@@ -280,7 +280,8 @@ BallPass FreeBodies::ball_pass(Span<const BodyPose> poses, double dt) {
 
 double FreeBodies::dropped_contacts(Span<const BodyPose> poses) {
   if (balls_.size() == 0) return 0;
-  return sum_over<1>({0, Index(balls_.size())}, DroppedContacts{ball_pass(poses, 0)}).v[0];
+  const Range balls{0, Context::current().rank() == 0 ? Index(balls_.size()) : 0};  // all ranks have them
+  return sum_over<1>(balls, DroppedContacts{ball_pass(poses, 0)}).v[0];
 }
 
 /// Contacts of balls with surfaces, then the sums of the recorded loads of balls and grains.

@@ -279,6 +279,23 @@ min = [0, 0, 0]
 max = [0.1, 0.06, 0.08]
 count = 80
 )";
+/// Of this slope, with rods among the grains.
+const std::string kRods = R"([[clump]]
+name = "rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
+[[grain.fill]]
+min = [0, 0, 0.03]
+max = [0.1, 0.03, 0.045]
+count = 20
+clump = "rod"
+[[grain_inlet]]
+name = "rods"
+shape = "box"
+min = [0.07, 0.005, 0.045]
+max = [0.095, 0.025, 0.055]
+rate = 1000
+clump = "rod"
+)";
 /// Grains that slide down a slope which is periodic, from an inlet above to an outlet.
 const std::string kSlope = R"(gravity = [3, 0, -9]
 [domain]
@@ -351,12 +368,14 @@ std::vector<RankCase> rank_cases() {
         "wall.body.0.k_over_H=1e-13"},
        100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
-      {"drifting bed", drifting_bed(), {"out.spectra=true"}, 60},
+      {"drifting bed", drifting_bed(), {"out.spectra=true", "out.contacts=touching"}, 60},
       {"slope with inlet and outlet of grains", kSlope, {}, 100},
+      {"slope with clumps", kSlope + kRods, {}, 80},
       {"settled grains", kDrum, {"grain.settle=true"}, 60},
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
       {"grains in fluid that do not act on it", kTank + kFluid + kSingle, {"couple.mode=off"}, 40},
       {"slurry", kDam + kSlurry, {}, 60},
+      {"bed with a rigid group", test::kBed + kGate, {}, 30},
       {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
       {"slurry, one way, mirrored walls", kDam + kSlurry, {"couple.mode=one_way", "wall.type=mdbc"}, 30},
       {"slurry with a float", kTank + kFluid + kSingle + test::kFloat, {}, 30},
@@ -399,11 +418,12 @@ std::vector<std::byte> readings(Simulation& s, const Config& c) {
     const auto more = bytes_of(store);
     out.insert(out.end(), more.begin(), more.end());
   };
-  for (const char* name : {"fluid", "walls", "grains"}) add_store(s.snapshot(name));
+  for (const char* name : {"fluid", "walls", "grains", "clumps"}) add_store(s.snapshot(name));
   if (c.grain.present) add_store(s.rheology("grains"));
   add(s.diagnostics());
   for (const ProbeConfig& probe : c.out.probes) add(s.measure(probe));
-  for (int b = 0; b < int(c.wall.bodies.size()); ++b) add(s.body_state(b));
+  const std::size_t groups = c.grain.rigid_fills().size();
+  for (int b = 0; b < int(c.wall.bodies.size() + groups); ++b) add(s.body_state(b));
   if (c.out.contacts != ContactFrames::none) add_store(s.snapshot("contacts"));
   for (const WallBody& body : c.wall.bodies)
     if (body.wear != WearLaw::none) add_store(s.snapshot("wear/" + body.name));
@@ -589,7 +609,7 @@ TEST(RankLimits, NameWhatCannotBeDividedYet) {
   EXPECT_EQ(refused(kDam, {}), "");
   EXPECT_EQ(refused(kDrum, {}), "");
   EXPECT_EQ(refused(kDam + kSlurry + test::kFloat, {}), "");
-  EXPECT_EQ(refused(test::kBed, {}), "grain.fill.1.rigid");
+  EXPECT_EQ(refused(test::kBed, {}), "");
   EXPECT_EQ(refused(kDrum + "[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]\ncount = "
                             "2\n[[grain.fill.sizes]]\nd = 0.005\n[[grain.fill.sizes]]\nd = 0.002\n",
                     {}),
