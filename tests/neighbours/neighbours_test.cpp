@@ -254,11 +254,15 @@ TEST(SmallNeighbours, OrderOfTilesDoesNotDependOnSearchesBefore) {
   const PairSeparation separation{c.frame, p, p};
   for (unsigned bits : {0, 2}) {
     TileList tiles, after_few;
+    const auto build = [&](TileList& list) {
+      list.build(n, grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range,
+                 HalfSkins(own, most), bits);
+    };
+    build(tiles);
+    build(after_few);  // so that it has capacity for all
     after_few.build(Index(few_x.size()), few_grid, few.frame, Span<const Vec3d>(few_device),
                     Span<const PairPosition>(few_p), range, {most}, bits);
-    for (TileList* list : {&tiles, &after_few})
-      list->build(n, grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range,
-                  HalfSkins(own, most), bits);
+    build(after_few);
     EXPECT_EQ(ordered_rows_of(tiles, separation, range + 2 * most),
               ordered_rows_of(after_few, separation, range + 2 * most));
   }
