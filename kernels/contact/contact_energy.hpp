@@ -111,7 +111,7 @@ struct PairFlow : FlowReduction {
     const bool touched = contacts.histories.touching[slot];
     const Vec3d r = g.frame.separation(g.x[i], g.x[j]);
     const SphereGap gap(r, g.radius[i], g.radius[j]);
-    const bool touches = gap.overlaps();
+    const bool touches = contacts.meet(i, j, gap, g.radius[i], g.radius[j], touched);
     if (!touched && !touches) return;
     const Sphere a = g.sphere(i), b = g.sphere(j);
     const Real R_star = a.R * b.R / (a.R + b.R), m_star = a.m * b.m / (a.m + b.m);

@@ -16,7 +16,7 @@ BL_HD void each_contact(const ContactPass& contacts, Index i, F&& f) {
     const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
     const Vec3d r = g.frame.separation(g.x[lo], g.x[hi]);
     const SphereGap gap(r, R_lo, R_hi);
-    if (!gap.overlaps()) return;
+    if (!contacts.meet(lo, hi, gap, R_lo, R_hi, true)) return;
     const ContactGeometry at =
         sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), r, gap.distance, gap.overlap());
     PairHistory h = contacts.histories[slot];
