@@ -38,22 +38,17 @@ struct BallPass {
     loads.clear(i);
     const ContactBall& ball = balls[i];
     const Vec3d x = centre(ball);
-    const WallMemories memories{memory, contacts, i};
-    SurfaceContacts<> found(memories, walls.surfaces.data, capacity);
+    SurfaceContacts<> found({memory, contacts, i}, walls.surfaces.data, capacity);
     find(ball, x, found);
-    if (found.size() > 0) {
-      found.resolve();
-      if constexpr (BodyLaw::kApart) found.drop_apart(ball.radius);
-      WallMemory next[kMostWallContacts];
-      for (int k = 0; k < found.size(); ++k)
-        next[k] = evaluate(
-            i, ball, x, found[k], found.memory_of(found[k], [&](std::uint32_t left, ContactHistory& h) {
-              law(ball, found[k].body)
-                  .take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
-            }));
-      for (int k = 0; k < found.size(); ++k) memories[k] = next[k];
-    }
-    contacts[i] = Index(found.size());
+    found.resolve();
+    if constexpr (BodyLaw::kApart) found.drop_apart(ball.radius);
+    found.each(
+        Lane(i, 0), true,
+        [&](const SurfaceContact& contact, std::uint32_t left, ContactHistory& h) {
+          law(ball, contact.body)
+              .take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
+        },
+        [&](const SurfaceContact& contact, WallMemory& of) { evaluate(i, ball, x, contact, of); });
   }
   /// Number of contacts of a ball that are left out, since the deepest `capacity` alone count.
   BL_HD Index dropped(Index i) const {
@@ -100,12 +95,12 @@ struct BallPass {
     out.sliding.G_star = Real(1 / (a.tangential + b.tangential));
     return out;
   }
-  BL_HD WallMemory evaluate(Index i, const ContactBall& ball, const Vec3d& x, const SurfaceContact& contact,
-                            const WallMemory& memory) const {
+  BL_HD void evaluate(Index i, const ContactBall& ball, const Vec3d& x, const SurfaceContact& contact,
+                      WallMemory& memory) const {
     const ClosestPoint& closest = contact.closest;
     const RigidBody& a = bodies[ball.owner];
     const BodyPose &mine = poses[a.body], &other = poses[contact.body];
-    ContactHistory h = memory.history;
+    ContactHistory& h = memory.history;
     const Vec3d point = x - closest.distance * closest.normal;
     const Vec3d r_mine = arm(mine, point), r_other = arm(other, point);
     double inverse_mass = a.inverse_effective_mass(mine.rotation, r_mine, closest.normal);
@@ -155,7 +150,7 @@ struct BallPass {
     const Vec3d couple = weight * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});
     loads.add(i, {-force, -cross(r_other, force) - couple, contact.body});
-    return {contact.key(), closest.normal, h};
+    memory.normal = closest.normal;
   }
 };
 

@@ -161,6 +161,32 @@ struct ContactPass {
       return gap.overlaps();
   }
 
+  /// A pair as those see it who look on: histories stay as they are.
+  struct Seen {
+    bool touched, acts;
+    Vec3d r;                    ///< x_lo - x_hi, m
+    Real3 v;                    ///< of lo to hi, m/s
+    PairHistory before, after;  ///< of the substep
+    ContactGeometry at;         ///< if it acts, as what follows
+    ContactForce on_lo;
+  };
+  BL_HD Seen look(Index lo, Index hi, std::uint64_t slot) const {
+    const GrainView& g = grains;
+    Seen pair{};
+    pair.touched = histories.touching[slot];
+    pair.r = g.frame.separation(g.x[lo], g.x[hi]);
+    pair.v = g.v[lo] - g.frame.seen(g.v[hi], g.x[lo], g.x[hi]);
+    if (pair.touched) pair.before = pair.after = histories[slot];
+    const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
+    const SphereGap gap(pair.r, R_lo, R_hi);
+    pair.acts = meet(lo, hi, gap, R_lo, R_hi, pair.touched);
+    if (!pair.acts) return pair;
+    pair.at = sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), pair.r, gap.distance, gap.overlap(),
+                             Vec3d(dt * pair.v));
+    pair.on_lo = law_of(lo, hi)(pair.at, pair.v, g.omega[lo], g.omega[hi], dt, pair.after);
+    return pair;
+  }
+
   /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
   BL_HD ContactSum operator()(const Lane& lane) const {
     ContactSum sum = pairs<ContactLaw>(lane);

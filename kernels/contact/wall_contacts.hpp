@@ -3,6 +3,7 @@
 // a nearer one, and the history of each from one substep to the next.
 
 #include "bedload/core/raw_array.hpp"
+#include "bedload/parallel/lanes.hpp"
 #include "kernels/contact/history.hpp"
 #include "kernels/walls/surface.hpp"
 
@@ -100,21 +101,25 @@ class SurfaceContacts {
         contacts_[kept++] = contacts_[k];
     size_ = kept;
   }
-  /// Memory of a contact, perhaps inherited from another body that the sphere has left for this one:
-  /// take_over(that body, history). A new contact has had its normal before.
-  template <class TakeOver>
-  BL_HD WallMemory memory_of(const SurfaceContact& contact, TakeOver&& take_over) const {
-    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
-    WallMemory memory = memories_[contact.from];
-    const std::uint32_t left = body_of(memory);
-    memory.key = contact.key();
-    if (left != contact.body) take_over(left, memory.history);
-    return memory;
+  /// After that: evaluate(contact, memory) for the lane's contacts; the lanes of a sphere share them. A
+  /// memory may be inherited from another body that the sphere has left: take_over(contact, that body,
+  /// history). A new contact has had its normal before. keep: memories are advanced.
+  template <class TakeOver, class Evaluate>
+  BL_HD void each(const Lane& lane, bool keep, TakeOver&& take_over, Evaluate&& evaluate) const {
+    RawArray<WallMemory, kMostWallContacts> next;
+    for (int k = int(lane.index); k < size_; k += int(lane.count))
+      next[k] = memory_of(contacts_[k], take_over);
+    lane.wait();  // until all have read their memories
+    for (int k = int(lane.index); k < size_; k += int(lane.count)) {
+      evaluate(contacts_[k], next[k]);
+      if (keep) memories_[Index(k)] = next[k];
+    }
+    if (keep && lane.index == 0 && remembered_ != Index(size_))
+      memories_.counts[memories_.grain] = Index(size_);
   }
 
   BL_HD std::uint32_t body_of(const WallMemory& memory) const { return surfaces_[memory.surface()].body; }
   BL_HD int size() const { return size_; }
-  BL_HD Index remembered() const { return remembered_; }
   BL_HD const SurfaceContact& operator[](int k) const { return contacts_[k]; }
 
  private:
@@ -140,6 +145,15 @@ class SurfaceContacts {
       if (!held && along > nearest) nearest = along, best = k;
     }
     return best;
+  }
+  template <class TakeOver>
+  BL_HD WallMemory memory_of(const SurfaceContact& contact, TakeOver& take_over) const {
+    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
+    WallMemory memory = memories_[contact.from];
+    const std::uint32_t left = body_of(memory);
+    memory.key = contact.key();
+    if (left != contact.body) take_over(contact, left, memory.history);
+    return memory;
   }
   BL_HD void insert(const SurfaceContact& contact) {
     if (size_ == capacity_) remove_hidden();

@@ -76,25 +76,20 @@ struct WallContacts {
   template <class Scope = AnyWalls, class Surfaces, class F>
   BL_HD void each(const Lane& lane, Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
     const Grain grain{grains.x[i], grains.v[i], grains.omega[i], grains.sphere(i)};
-    const WallMemories remembered = memories(i);
-    SurfaceContacts<typename Scope::Kinds> found(remembered, walls.surfaces.data, capacity);
+    SurfaceContacts<typename Scope::Kinds> found(memories(i), walls.surfaces.data, capacity);
     find<Scope::Law::kApart>(i, n, surface, double(grain.R()), found);
     found.resolve();
     if constexpr (Scope::Law::kApart) found.drop_apart(double(grain.R()));
-    RawArray<WallMemory, kMostWallContacts> next;
-    for (int k = int(lane.index); k < found.size(); k += int(lane.count))
-      next[k] = found.memory_of(found[k], [&](std::uint32_t left, ContactHistory& h) {
-        using Law = typename Scope::Law;
-        composed<Law>(law(found[k].body, i))
-            .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
-      });
-    lane.wait();  // until all have read their memories
-    for (int k = int(lane.index); k < found.size(); k += int(lane.count)) {
-      const SurfaceContact& contact = found[k];
-      evaluate<Scope>(grain, contact, law(contact.body, i), next[k], f);
-      if (keep) remembered[k] = next[k];
-    }
-    if (keep && lane.index == 0 && found.remembered() != Index(found.size())) count[i] = Index(found.size());
+    using Law = typename Scope::Law;
+    found.each(
+        lane, keep,
+        [&](const SurfaceContact& contact, std::uint32_t left, ContactHistory& h) {
+          composed<Law>(law(contact.body, i))
+              .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
+        },
+        [&](const SurfaceContact& contact, WallMemory& memory) {
+          evaluate<Scope>(grain, contact, law(contact.body, i), memory, f);
+        });
   }
   /// The same for the lubrication films between a wet grain and all walls, in contact or not. Only with
   /// lubrication.
