@@ -86,9 +86,19 @@ std::string find_gpu(Device& device) {
   int count = 0;
   if (const auto status = cudaGetDeviceCount(&count); status != cudaSuccess) {
     (void)cudaGetLastError();
+    int of_driver = 0, needed = 0;
+    cudaDriverGetVersion(&of_driver);
+    cudaRuntimeGetVersion(&needed);
+    const auto text = [](int version) {
+      return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
+    };
+    if (of_driver == 0) return "no usable GPU: there is no NVIDIA driver";
+    if (status == cudaErrorInsufficientDriver)
+      return "no usable GPU: the NVIDIA driver is for CUDA " + text(of_driver) + ", this program for CUDA " +
+             text(needed);
     return std::string("no usable GPU: ") + cudaGetErrorString(status);
   }
-  if (count == 0) return "no usable GPU was found";
+  if (count == 0) return "no usable GPU: none was found";
   cudaDeviceProp properties;
   int own = 0;
   cudaGetDevice(&own);
@@ -116,6 +126,11 @@ Device find_device(const std::string& backend, int threads, Simd simd) {
   }
   if (backend == "cuda") throw DeviceError("--backend = cuda: " + why);
   return cpu(threads, simd);
+}
+
+std::string why_no_gpu(const std::string& backend) {
+  Device device;
+  return BL_HAS_CUDA && backend == "auto" ? find_gpu(device) : "";
 }
 
 void divide_among(Device& device, int ranks, const std::string& gpus) {

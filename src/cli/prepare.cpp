@@ -265,7 +265,11 @@ Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
   choose_device(options, p);
-  if (!options.quiet) fmt::print("{}", heading_text(p));  // before particles are placed, which takes time
+  if (!options.quiet) {  // before particles are placed, which takes time
+    fmt::print("{}", heading_text(p));
+    if (const std::string why = p.device.cuda() ? "" : why_no_gpu(options.backend); !why.empty())
+      fmt::print("           {}\n", why);
+  }
   std::fflush(stdout);
   placed(p.config.places, [&] { place_particles(options, p); });
   return p;

@@ -88,6 +88,31 @@ class Packages(unittest.TestCase):
             self.assertIn(path, files)
         self.assertNotIn("libhdf5", files)
 
+    def test_an_option_replaces_that_of_the_tool(self):
+        """tools/package with programs that take the place of Python, pip and auditwheel."""
+        for path, text in {
+            "tools/package": (ROOT / "tools/package").read_text(),
+            "tools/install_dependencies": "#!/bin/sh\n",
+            "build/package_tools/hdf5/lib/libhdf5.a": "",
+            "build/package_tools/hdf5_source/COPYING": "",
+            "build/package_tools/venv_311/lib/python3.11/site-packages/nanobind-3.dist-info/licenses/LICENSE": "",
+            "build/package_tools/venv_311/bin/python": '#!/bin/sh\n[ "$2" != pip ] || printf "%s\\n" "$@" >given\n',
+            "build/package_tools/venv_311/bin/auditwheel": "#!/bin/sh\ntouch build/packages/bedload.whl\n",
+            "python": "#!/bin/sh\necho 311\n",
+        }.items():
+            file = self.place / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+            file.chmod(0o755)
+        out = call(self.place / "tools/package", "-DBEDLOAD_PRECISIONS=single", "wheel",
+                   env=os.environ | {"PYTHON": str(self.place / "python")})
+        self.assertEqual(len(out.splitlines()), 1)  # its size
+        given = [word for word in (self.place / "given").read_text().split() if "cmake.define" in word]
+        keys = [word.split("=")[1] for word in given]
+        self.assertEqual(len(keys), len(set(keys)))
+        self.assertIn("--config-settings=cmake.define.BEDLOAD_PRECISIONS=single", given)
+        self.assertTrue((self.place / "build/package_tools/licences/hdf5").exists())
+
 
 if __name__ == "__main__":
     unittest.main()

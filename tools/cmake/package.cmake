@@ -5,6 +5,11 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS bedload RUNTIME_DEPENDENCY_SET libraries COMPONENT program)
 install(FILES LICENSE CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bedload COMPONENT program)
+set(BEDLOAD_LICENCES "" CACHE PATH "Folder with the licences of what packages have compiled in or bundled")
+if(BEDLOAD_LICENCES)
+  install(DIRECTORY ${BEDLOAD_LICENCES} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/bedload COMPONENT program)
+  install(DIRECTORY ${BEDLOAD_LICENCES} DESTINATION bedload COMPONENT python EXCLUDE_FROM_ALL)
+endif()
 install(CODE "execute_process(COMMAND $<TARGET_FILE:bedload> man OUTPUT_FILE ${CMAKE_BINARY_DIR}/bedload.1
                               COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND $<TARGET_FILE:bedload> completion bash OUTPUT_FILE ${CMAKE_BINARY_DIR}/bedload.bash

@@ -37,7 +37,7 @@ function(bedload_variant precision backend)
   target_link_libraries(bedload_${variant} PUBLIC bedload_headers PRIVATE $<LINK_ONLY:$<TARGET_NAME:bedload_host>>)
   if(backend STREQUAL "cuda")
     target_compile_definitions(bedload_${variant} PUBLIC BL_CUDA=1)
-    target_compile_options(bedload_${variant} PUBLIC --expt-relaxed-constexpr -lineinfo)
+    target_compile_options(bedload_${variant} PUBLIC --expt-relaxed-constexpr $<$<BOOL:${BEDLOAD_LINE_INFO}>:-lineinfo>)
     if(NOT precision STREQUAL "double")  # to 2 ulp, denormals as zero: half of the instructions
       target_compile_options(bedload_${variant} PUBLIC -ftz=true -prec-div=false -prec-sqrt=false)
     endif()
