@@ -38,17 +38,17 @@ struct BallPass {
     loads.clear(i);
     const ContactBall& ball = balls[i];
     const Vec3d x = centre(ball);
-    const WallMemories memories{memory, contacts, i};
-    SurfaceContacts<> found(memories, walls.surfaces.data, capacity);
+    SurfaceContacts<> found({memory, contacts, i}, walls.surfaces.data, capacity);
     find(ball, x, found);
-    if (found.size() > 0) {
-      found.resolve();
-      WallMemory next[kMostWallContacts];
-      for (int k = 0; k < found.size(); ++k)
-        next[k] = evaluate(i, ball, x, found[k], taken_over(ball, found, found[k], memories));
-      for (int k = 0; k < found.size(); ++k) memories[k] = next[k];
-    }
-    contacts[i] = Index(found.size());
+    found.resolve();
+    if constexpr (BodyLaw::kApart) found.drop_apart(ball.radius);
+    found.each(
+        Lane(i, 0), true,
+        [&](const SurfaceContact& contact, std::uint32_t left, ContactHistory& h) {
+          law(ball, contact.body)
+              .take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
+        },
+        [&](const SurfaceContact& contact, WallMemory& of) { evaluate(i, ball, x, contact, of); });
   }
   /// Number of contacts of a ball that are left out, since the deepest `capacity` alone count.
   BL_HD Index dropped(Index i) const {
@@ -63,14 +63,12 @@ struct BallPass {
   BL_HD void find(const ContactBall& ball, const Vec3d& x, SurfaceContacts<AllKinds, kMost>& found) const {
     const std::uint32_t own = bodies[ball.owner].body;
     for (Index s = 0; s < walls.surfaces.size; ++s) {
-      const Surface& surface = walls.surfaces[s];
-      const BodyPose& pose = poses[surface.body];
-      if (surface.body == own || !pose.present || !poses[own].present || passes(pose)) continue;
-      const double reach = surface.reach(ball.radius);
-      const SurfaceView view(surface, pose, frame, x);
-      if (view.beyond(walls, reach)) continue;
-      view.each_closest_point(walls, reach, 1e-4 * ball.radius,
-                              [&](const ClosestPoint& closest) { found.add(s, closest, ball.radius); });
+      const std::uint32_t body = walls.surfaces[s].body;
+      const BodyPose& pose = poses[body];
+      if (body == own || !pose.present || !poses[own].present || passes(pose)) continue;
+      double reach = ball.radius;
+      if constexpr (BodyLaw::kApart) reach += double(law(ball, body).range()) * ball.R_star;
+      found.seek(walls, s, pose, frame, x, 1e-4 * ball.radius, ball.radius, reach);
     }
   }
   /// Bodies without contacts.
@@ -97,32 +95,19 @@ struct BallPass {
     out.sliding.G_star = Real(1 / (a.tangential + b.tangential));
     return out;
   }
-  /// Memory of a contact, perhaps inherited from another body that the ball has left for this one. A new
-  /// contact has had its normal before.
-  BL_HD WallMemory taken_over(const ContactBall& ball, const SurfaceContacts<>& found,
-                              const SurfaceContact& contact, const WallMemories& memories) const {
-    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
-    WallMemory memory = memories[contact.from];
-    const std::uint32_t left = found.body_of(memory);
-    if (left != contact.body)
-      law(ball, contact.body)
-          .take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), memory.history);
-    return memory;
-  }
-  BL_HD WallMemory evaluate(Index i, const ContactBall& ball, const Vec3d& x, const SurfaceContact& contact,
-                            const WallMemory& memory) const {
+  BL_HD void evaluate(Index i, const ContactBall& ball, const Vec3d& x, const SurfaceContact& contact,
+                      WallMemory& memory) const {
     const ClosestPoint& closest = contact.closest;
     const RigidBody& a = bodies[ball.owner];
     const BodyPose &mine = poses[a.body], &other = poses[contact.body];
-    ContactHistory h = memory.history;
-    h.overlap = std::abs(h.overlap);
-
+    ContactHistory& h = memory.history;
     const Vec3d point = x - closest.distance * closest.normal;
     const Vec3d r_mine = arm(mine, point), r_other = arm(other, point);
     double inverse_mass = a.inverse_effective_mass(mine.rotation, r_mine, closest.normal);
     if (other.free)
       inverse_mass += bodies[other.free - 1].inverse_effective_mass(other.rotation, r_other, closest.normal);
     const BodyLaw acting = law(ball, contact.body);
+    h.overlap = acting.last_overlap(h);
     const double opposite = other.free ? ball_opposite(ball, x, other) : 0;
     const double R_star = opposite > 0 ? 1 / (1 / ball.R_star + 1 / opposite) : ball.R_star;
     const double weight = opposite > 0 ? 0.5 : 1;
@@ -165,8 +150,7 @@ struct BallPass {
     const Vec3d couple = weight * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});
     loads.add(i, {-force, -cross(r_other, force) - couple, contact.body});
-    h.overlap *= closest.side;
-    return {contact.key(), closest.normal, h};
+    memory.normal = closest.normal;
   }
 };
 

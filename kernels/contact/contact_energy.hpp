@@ -108,34 +108,28 @@ struct PairFlow : FlowReduction {
   /// counts: this row is the one that enters the loss of a contact that ends.
   BL_HD void add(Index i, Index j, std::uint64_t slot, bool counts, Value& flow) const {
     const GrainView& g = contacts.grains;
-    const bool touched = contacts.histories.touching[slot];
-    const Vec3d r = g.frame.separation(g.x[i], g.x[j]);
-    const SphereGap gap(r, g.radius[i], g.radius[j]);
-    const bool touches = gap.overlaps();
-    if (!touched && !touches) return;
+    const ContactPass::Seen pair = contacts.look(i, j, slot);
+    if (!pair.touched && !pair.acts) return;
     const Sphere a = g.sphere(i), b = g.sphere(j);
     const Real R_star = a.R * b.R / (a.R + b.R), m_star = a.m * b.m / (a.m + b.m);
     const ContactLaw& law = contacts.law_of(i, j);
-    ContactMotion motion{g.v[i] - g.frame.seen(g.v[j], g.x[i], g.x[j]), g.omega[i], g.omega[j], a.R, b.R};
-    PairHistory h;
+    ContactMotion motion{pair.v, g.omega[i], g.omega[j], a.R, b.R};
     StoredEnergy had, has;
     ContactAction before{}, now{};
-    if (touched) h = contacts.histories[slot], had = law.energy(R_star, m_star, h), before = actions[slot];
-    if (touches) {
-      const ContactGeometry at =
-          sphere_contact(a, b, r, gap.distance, gap.overlap(), Vec3d(contacts.dt * motion.v));
-      now = ContactAction::of(law(at, motion.v, motion.omega_i, motion.omega_j, contacts.dt, h), at);
-      has = law.energy(R_star, m_star, h);
-      motion.arm_i = at.arm_i, motion.arm_j = at.arm_j;
+    if (pair.touched) had = law.energy(R_star, m_star, pair.before), before = actions[slot];
+    if (pair.acts) {
+      now = ContactAction::of(pair.on_lo, pair.at);
+      has = law.energy(R_star, m_star, pair.after);
+      motion.arm_i = pair.at.arm_i, motion.arm_j = pair.at.arm_j;
     }
     actions[slot] = now;
     if (!(contacts.dt > 0)) return;
     flow.dissipate(motion, contacts.dt, before, now, had, has);
     if (!losses) return;
     ContactLoss& loss = losses.of_pairs[slot];
-    if (!touched) loss = {};
+    if (!pair.touched) loss = {};
     flow.add_to(loss);
-    if (!touches && counts)
+    if (!pair.acts && counts)
       losses.spectra.enter(losses.spectra.of_pair(g.mass_per_r3.material_of(i), g.mass_per_r3.material_of(j)),
                            loss);
   }

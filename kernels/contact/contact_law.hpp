@@ -2,6 +2,8 @@
 // One contact between two grains, or a grain and a wall: force, torques, history.
 // Signs: n points from j to i, v = v_i - v_j, the force is that on i.
 
+#include <limits>
+
 #include "kernels/contact/one_of.hpp"
 #include "kernels/contact/rolling.hpp"
 #include "kernels/contact/tangential.hpp"
@@ -11,7 +13,7 @@ namespace BL_SOLVER {
 /// Geometry of a contact. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
 struct ContactGeometry {
   Real3 n, n_mid;        ///< at the end and in the middle of the substep
-  Real overlap;          ///< > 0, m
+  Real overlap;          ///< m; negative: apart, within the range of the law
   Real R_star, m_star;   ///< m, kg
   Real arm_i, arm_j;     ///< centre to contact, m
   Real inverse_spin;     ///< 1/I_i + 1/I_j
@@ -35,7 +37,7 @@ struct SphereGap {
     reach = Real(most);
   }
   BL_HD bool overlaps() const { return squares > 0; }
-  BL_HD Real overlap() const { return quotient(Real(squares), reach + distance); }  ///< m
+  BL_HD Real overlap() const { return quotient(Real(squares), reach + distance); }  ///< m; < 0: apart
 };
 /// Two grains; r = x_i - x_j, which has changed by `drift` (m) in the substep.
 BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec3d& r, Real distance,
@@ -113,6 +115,32 @@ struct ContactLawOf {
   BL_HD bool remembers_couple() const {
     return with_law(rolling, [](const auto& law) { return law.kRemembers; });
   }
+  /// Whether these laws may act between what has touched and is apart again; else nothing is compiled for it.
+  static constexpr bool kApart = kReaches<Normal>;
+  /// How far they do so, over R*.
+  BL_HD Real range() const {
+    return with_law(normal, [](const auto& law) {
+      if constexpr (kReaches<std::decay_t<decltype(law)>>)
+        return law.range;
+      else
+        return Real(0);
+    });
+  }
+  /// Whether two spheres act on each other; `touched`: they did in the substep before.
+  BL_HD bool acts(const SphereGap& gap, Real R_i, Real R_j, bool touched) const {
+    if (gap.overlaps()) return true;
+    if constexpr (kApart)
+      return touched && range() > 0 && gap.overlap() > -range() * quotient(R_i * R_j, R_i + R_j);
+    else
+      return false;
+  }
+  /// Overlap at the last evaluation, m; negative only with a range.
+  template <class S>
+  BL_HD S last_overlap(const HistoryOf<S>& h) const {
+    if constexpr (kApart)
+      if (range() > 0) return h.overlap;
+    return std::abs(h.overlap);
+  }
   BL_HD NormalState normal_state(Real R_star, Real m_star, Real overlap) const {
     return with_law(normal, [&](const auto& law) { return law(R_star, m_star, overlap); });
   }
@@ -133,15 +161,21 @@ struct ContactLawOf {
       return law.dashpot(overlap_before, at.overlap, v_n, dt, !clip_tension);
     });
     const Real damping = ns.damping * acts;
-    const Real ahead = dt > 0 && overlap_before > 0 ? Real(0.5) * (v_n - Real(h.recede)) : Real(0);
+    const bool began = kApart ? overlap_before != 0 : overlap_before > 0;
+    const Real ahead = dt > 0 && began ? Real(0.5) * (v_n - Real(h.recede)) : Real(0);
     Real f_n = ns.elastic - damping * (v_n + ahead);
-    if (clip_tension) f_n = max_of(f_n, Real(0));
+    if (clip_tension) f_n = max_of(f_n, kApart ? min_of(ns.elastic, Real(0)) : Real(0));
     const Real pressing = max_of(f_n, Real(0));
 
     const NormalState before =
         overlap_before > 0 ? normal_state(at.R_star, at.m_star, overlap_before) : ns;  // of the springs
-    const ContactTurn turn(n_mid, n, Real(0.5) * dt * dot(omega_i + omega_j, n_mid));
     ContactForce out{f_n * n, {}, {}};
+    if constexpr (kApart)
+      if (!(at.overlap > 0)) {  // nothing presses; 0 stands for what has not touched
+        h = {{}, {}, S(min_of(at.overlap, -std::numeric_limits<Real>::min())), S(v_n)};
+        return out;
+      }
+    const ContactTurn turn(n_mid, n, Real(0.5) * dt * dot(omega_i + omega_j, n_mid));
     if (slides()) {
       const Real3 slip = v - dot(v, n_mid) * n_mid - cross(at.arm_i * omega_i + at.arm_j * omega_j, n_mid);
       const Real3 v_t = turn.tilted(slip), turning = turn.change(Real3(h.xi));
@@ -185,9 +219,9 @@ struct ContactLawOf {
     return energy(R_star, m_star, h).total();
   }
   BL_HD StoredEnergy energy(Real R_star, Real m_star, const ContactHistory& h) const {
-    const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
+    const double overlap = last_overlap(h);
     const NormalState ns = normal_state(R_star, m_star, Real(overlap));
-    StoredEnergy out = stored_sideways(ns, R_star, m_star, overlap, h);
+    StoredEnergy out = stored_sideways(ns, R_star, m_star, std::abs(overlap), h);
     out.normal = with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap;
     return out;
   }

@@ -13,8 +13,8 @@
 
 namespace BL_SOLVER {
 
-/// Pairs of grains whose distance is below the sum of their radii, a skin and the range of lubrication; pairs
-/// within one clump are left out.
+/// Pairs of grains whose distance is below the sum of their radii, a skin and the range of what acts between
+/// grains that do not touch; pairs within one clump are left out.
 struct GrainNear {
   GrainFrame frame;
   Span<const Vec3d> x;
@@ -22,17 +22,17 @@ struct GrainNear {
   Span<const std::uint32_t> clump;  ///< 0: none; empty without clumps
   double largest;                   ///< radius, m
   double skin;                      ///< m
-  double film = 0;                  ///< range of lubrication / R*
+  double range = 0;                 ///< of lubrication and of the laws, over R*
   double stretch = 1;               ///< of GrainFrame
   BL_HD Vec3d place(Index i) const { return frame.listed(x[i]); }
   BL_HD double reach(Index i) const {
-    return stretch * (radius[i] + largest + skin + film_between(radius[i], largest));
+    return stretch * (radius[i] + largest + skin + beyond(radius[i], largest));
   }
   BL_HD bool operator()(Index i, Index j) const {
     if (clump && clump[i] != 0 && clump[i] == clump[j]) return false;
-    return i != j && closer(i, j, skin + film_between(radius[i], radius[j]));
+    return i != j && closer(i, j, skin + beyond(radius[i], radius[j]));
   }
-  BL_HD double film_between(double R_i, double R_j) const { return film * R_i * R_j / (R_i + R_j); }
+  BL_HD double beyond(double R_i, double R_j) const { return range * R_i * R_j / (R_i + R_j); }
   BL_HD bool closer(Index i, Index j, double gap) const {
     const double range = double(radius[i]) + double(radius[j]) + gap;
     return norm2(frame.separation(x[i], x[j])) < range * range;
@@ -152,6 +152,40 @@ struct ContactPass {
   }
 
   BL_HD const ContactLaw& law_of(Index i, Index j) const { return laws ? laws[pair_of(i, j)] : law; }
+  /// Whether two grains act on each other; `touched`: they did in the substep before.
+  template <class Law = ContactLaw>
+  BL_HD bool meet(Index i, Index j, const SphereGap& gap, Real R_i, Real R_j, bool touched) const {
+    if constexpr (Law::kApart)
+      return law_of(i, j).acts(gap, R_i, R_j, touched);
+    else
+      return gap.overlaps();
+  }
+
+  /// A pair as those see it who look on: histories stay as they are.
+  struct Seen {
+    bool touched, acts;
+    Vec3d r;                    ///< x_lo - x_hi, m
+    Real3 v;                    ///< of lo to hi, m/s
+    PairHistory before, after;  ///< of the substep
+    ContactGeometry at;         ///< if it acts, as what follows
+    ContactForce on_lo;
+  };
+  BL_HD Seen look(Index lo, Index hi, std::uint64_t slot) const {
+    const GrainView& g = grains;
+    Seen pair{};
+    pair.touched = histories.touching[slot];
+    pair.r = g.frame.separation(g.x[lo], g.x[hi]);
+    pair.v = g.v[lo] - g.frame.seen(g.v[hi], g.x[lo], g.x[hi]);
+    if (pair.touched) pair.before = pair.after = histories[slot];
+    const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
+    const SphereGap gap(pair.r, R_lo, R_hi);
+    pair.acts = meet(lo, hi, gap, R_lo, R_hi, pair.touched);
+    if (!pair.acts) return pair;
+    pair.at = sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), pair.r, gap.distance, gap.overlap(),
+                             Vec3d(dt * pair.v));
+    pair.on_lo = law_of(lo, hi)(pair.at, pair.v, g.omega[lo], g.omega[hi], dt, pair.after);
+    return pair;
+  }
 
   /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
   BL_HD ContactSum operator()(const Lane& lane) const {
@@ -232,7 +266,7 @@ struct ContactPass {
     if (touched) h = histories[slot], other = load(j);
     const Vec3d r = grains.frame.separation(own.x, x_j);
     const SphereGap gap(r, own.R, R);
-    if (!gap.overlaps()) {
+    if (!meet<Law>(own.i, j, gap, own.R, R, touched)) {
       if (touched) histories.touching[slot] = 0;
       return;
     }

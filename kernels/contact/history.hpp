@@ -17,7 +17,7 @@ template <class S>
 struct HistoryOf {
   Vec3<S> xi;      ///< tangential spring, m
   Vec3<S> couple;  ///< elastic rolling couple on the first grain, N m
-  S overlap = 0;   ///< at the last evaluation, m, to Real's digits; 0: apart. Walls: negative behind them
+  S overlap = 0;   ///< at the last evaluation, m, to Real's digits; 0: none yet; < 0: apart, with a range
   S recede = 0;    ///< normal speed at the last evaluation, m/s, to Real's digits
 
   template <class T>

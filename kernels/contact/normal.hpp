@@ -5,6 +5,9 @@
 //   operator()   force, stiffness and damping,
 //   dashpot      the fraction of a substep in which damping acts,
 //   kEnergy      stored energy over force times overlap,
+// optionally a member
+//   range        how far apart, over R*, spheres that have touched still act on each other; overlaps are then
+//                negative, and so is the force that holds them,
 // for the host (contact_laws.hpp) `kLeastRestitution` without tension, `kTakesModuli`, `impact` and
 // `overlap_under`, and optionally `describe` (its own keys).
 
@@ -15,8 +18,17 @@
 #include "bedload/core/error.hpp"
 #include "bedload/core/types.hpp"
 #include "kernels/contact/materials.hpp"
+#include "kernels/contact/one_of.hpp"
 
 namespace BL_SOLVER {
+
+/// Whether a law, or one of several, reaches beyond touch.
+template <class Law>
+constexpr bool kReaches = requires(const Law& law) {
+  law.range;
+};
+template <class... Laws>
+constexpr bool kReaches<OneOf<Laws...>> = (kReaches<Laws> || ...);
 
 /// One contact along its normal: force F_n = elastic - damping v_n, v_n > 0 when receding.
 struct NormalState {

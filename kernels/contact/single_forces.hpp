@@ -14,22 +14,8 @@ struct SinglePairForces {
   BL_HD void operator()(Index i) const {
     const GrainView& g = contacts.grains;
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {
-      if (g.id[i] < g.id[j]) force[slot] = between(i, j, slot);
+      if (g.id[i] < g.id[j]) force[slot] = contacts.look(i, j, slot).on_lo.force;
     });
-  }
-
- private:
-  BL_HD Real3 between(Index i, Index j, std::uint64_t slot) const {
-    const GrainView& g = contacts.grains;
-    const Vec3d r = g.frame.separation(g.x[i], g.x[j]);
-    const double reach = double(g.radius[i]) + double(g.radius[j]), distance = root(norm2(r));
-    if (!(distance < reach)) return {};
-    ContactHistory h;
-    if (contacts.histories.touching[slot]) h = contacts.histories[slot];
-    const Real3 v = g.v[i] - g.frame.seen(g.v[j], g.x[i], g.x[j]);
-    const ContactGeometry at = sphere_contact(g.sphere(i), g.sphere(j), r, distance, reach - distance,
-                                              double(contacts.dt) * Vec3d(v));
-    return contacts.law_of(i, j)(at, v, g.omega[i], g.omega[j], contacts.dt, h).force;
   }
 };
 

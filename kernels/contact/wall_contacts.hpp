@@ -3,6 +3,7 @@
 // a nearer one, and the history of each from one substep to the next.
 
 #include "bedload/core/raw_array.hpp"
+#include "bedload/parallel/lanes.hpp"
 #include "kernels/contact/history.hpp"
 #include "kernels/walls/surface.hpp"
 
@@ -57,16 +58,28 @@ class SurfaceContacts {
   BL_HD SurfaceContacts(const WallMemories& memories, const Surface* surfaces, int capacity)
       : memories_(memories), surfaces_(surfaces), remembered_(memories.count()), capacity_(capacity) {}
 
-  /// A closest point of surface s. Behind a tracked surface a grain has a contact only if it had one before;
-  /// a patch keeps the side of the last contact. radius: of the grain, m.
-  BL_HD void add(Index s, ClosestPoint closest, double radius) {
+  /// Adds the contacts of a sphere at x with surface s in this pose. radius: of the sphere, m; what it has
+  /// touched acts on it up to `reach` (m) from its centre. merge: see SurfaceSet::each_closest_point.
+  BL_HD void seek(const SurfaceSet& walls, Index s, const BodyPose& pose, const Frame& frame, const Vec3d& x,
+                  double merge, double radius, double reach) {
+    const SurfaceView view(walls.surfaces[s], pose, frame, x);
+    const double farthest = Kinds::reach(view.surface, reach);
+    if (Kinds::kTracked && view.beyond(walls, farthest))
+      return;  // for other kinds the closest point costs no more than this test
+    view.template each_closest_point<Kinds>(
+        walls, farthest, merge, [&](const ClosestPoint& closest) { add(s, closest, radius, reach); });
+  }
+  /// A closest point of surface s. Behind a tracked surface, or without touching, a sphere has a contact only
+  /// if it had one before; a patch keeps the side of the last contact.
+  BL_HD void add(Index s, ClosestPoint closest, double radius, double reach) {
     const Surface& surface = surfaces_[s];
     SurfaceContact contact{closest, s, surface.body};
     contact.from = find(contact.key());
-    if (closest.two_sided && contact.from != kNone)
-      contact.closest.face(memories_[contact.from].history.overlap < 0 ? -1.0 : 1.0);
-    if (!(contact.closest.distance < radius)) return;
-    if (Kinds::tracked(surface) && contact.closest.distance < 0 && contact.from == kNone &&
+    if (closest.two_sided && contact.from != kNone && dot(memories_[contact.from].normal, closest.normal) < 0)
+      contact.closest.face(-closest.side);
+    const double distance = contact.closest.distance;
+    if (!(distance < reach)) return;
+    if (((Kinds::tracked(surface) && distance < 0) || !(distance < radius)) && contact.from == kNone &&
         inherited(contact, false) == kNone)
       return;
     insert(contact);
@@ -80,10 +93,33 @@ class SurfaceContacts {
     for (int k = 0; k < size_; ++k)
       if (contacts_[k].from == kNone) contacts_[k].from = inherited(contacts_[k], true);
   }
+  /// After that: removes contacts of a sphere of this radius (m) that do not touch and inherit nothing.
+  BL_HD void drop_apart(double radius) {
+    int kept = 0;
+    for (int k = 0; k < size_; ++k)
+      if (contacts_[k].closest.distance < radius || contacts_[k].from != kNone)
+        contacts_[kept++] = contacts_[k];
+    size_ = kept;
+  }
+  /// After that: evaluate(contact, memory) for the lane's contacts; the lanes of a sphere share them. A
+  /// memory may be inherited from another body that the sphere has left: take_over(contact, that body,
+  /// history). A new contact has had its normal before. keep: memories are advanced.
+  template <class TakeOver, class Evaluate>
+  BL_HD void each(const Lane& lane, bool keep, TakeOver&& take_over, Evaluate&& evaluate) const {
+    RawArray<WallMemory, kMostWallContacts> next;
+    for (int k = int(lane.index); k < size_; k += int(lane.count))
+      next[k] = memory_of(contacts_[k], take_over);
+    lane.wait();  // until all have read their memories
+    for (int k = int(lane.index); k < size_; k += int(lane.count)) {
+      evaluate(contacts_[k], next[k]);
+      if (keep) memories_[Index(k)] = next[k];
+    }
+    if (keep && lane.index == 0 && remembered_ != Index(size_))
+      memories_.counts[memories_.grain] = Index(size_);
+  }
 
   BL_HD std::uint32_t body_of(const WallMemory& memory) const { return surfaces_[memory.surface()].body; }
   BL_HD int size() const { return size_; }
-  BL_HD Index remembered() const { return remembered_; }
   BL_HD const SurfaceContact& operator[](int k) const { return contacts_[k]; }
 
  private:
@@ -109,6 +145,15 @@ class SurfaceContacts {
       if (!held && along > nearest) nearest = along, best = k;
     }
     return best;
+  }
+  template <class TakeOver>
+  BL_HD WallMemory memory_of(const SurfaceContact& contact, TakeOver& take_over) const {
+    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
+    WallMemory memory = memories_[contact.from];
+    const std::uint32_t left = body_of(memory);
+    memory.key = contact.key();
+    if (left != contact.body) take_over(contact, left, memory.history);
+    return memory;
   }
   BL_HD void insert(const SurfaceContact& contact) {
     if (size_ == capacity_) remove_hidden();

@@ -76,20 +76,20 @@ struct WallContacts {
   template <class Scope = AnyWalls, class Surfaces, class F>
   BL_HD void each(const Lane& lane, Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
     const Grain grain{grains.x[i], grains.v[i], grains.omega[i], grains.sphere(i)};
-    const WallMemories remembered = memories(i);
-    SurfaceContacts<typename Scope::Kinds> found(remembered, walls.surfaces.data, capacity);
-    find(grain.x, grain.R(), n, surface, double(grain.R()), found);
+    SurfaceContacts<typename Scope::Kinds> found(memories(i), walls.surfaces.data, capacity);
+    find<Scope::Law::kApart>(i, n, surface, double(grain.R()), found);
     found.resolve();
-    RawArray<WallMemory, kMostWallContacts> next;
-    for (int k = int(lane.index); k < found.size(); k += int(lane.count))
-      next[k] = taken_over<Scope>(grain, i, found, found[k]);
-    lane.wait();  // until all have read their memories
-    for (int k = int(lane.index); k < found.size(); k += int(lane.count)) {
-      const SurfaceContact& contact = found[k];
-      evaluate<Scope>(grain, contact, law(contact.body, i), next[k], f);
-      if (keep) remembered[k] = next[k];
-    }
-    if (keep && lane.index == 0 && found.remembered() != Index(found.size())) count[i] = Index(found.size());
+    if constexpr (Scope::Law::kApart) found.drop_apart(double(grain.R()));
+    using Law = typename Scope::Law;
+    found.each(
+        lane, keep,
+        [&](const SurfaceContact& contact, std::uint32_t left, ContactHistory& h) {
+          composed<Law>(law(contact.body, i))
+              .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
+        },
+        [&](const SurfaceContact& contact, WallMemory& memory) {
+          evaluate<Scope>(grain, contact, law(contact.body, i), memory, f);
+        });
   }
   /// The same for the lubrication films between a wet grain and all walls, in contact or not. Only with
   /// lubrication.
@@ -99,7 +99,7 @@ struct WallContacts {
     const Real R = grains.radius[i];
     const Vec3d x = grains.x[i];
     SurfaceContacts<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
-    find(x, R, n, surface, double(R) + double(lubrication.range(R)), near);
+    find<false>(i, n, surface, double(R) + double(lubrication.range(R)), near);
     if (near.size() == 0) return;
     near.resolve();
     for (int k = 0; k < near.size(); ++k) {
@@ -121,9 +121,9 @@ struct WallContacts {
   /// Number of contacts of grain i that are left out, since the deepest `capacity` alone count.
   BL_HD Index dropped(Index i) const {
     const auto any = [](Index s) { return s; };
-    const Real R = grains.radius[i];
-    return left_out(memories(i), walls.surfaces.data, capacity,
-                    [&](auto& found) { find(grains.x[i], R, walls.surfaces.size, any, double(R), found); });
+    return left_out(memories(i), walls.surfaces.data, capacity, [&](auto& found) {
+      find<ContactLaw::kApart>(i, walls.surfaces.size, any, double(grains.radius[i]), found);
+    });
   }
 
  private:
@@ -133,38 +133,21 @@ struct WallContacts {
     Sphere sphere;
     BL_HD Real R() const { return sphere.R; }
   };
-  /// Collects what is within `range` (m) of the centre of a grain at x.
-  template <class Kinds, int kMost, class Surfaces>
-  BL_HD void find(const Vec3d& at, Real R, Index n, Surfaces&& surface, double range,
+  /// Collects what is within `radius` (m) of the centre of grain i. apart: and what has touched it before, as
+  /// far as its law reaches.
+  template <bool apart, class Kinds, int kMost, class Surfaces>
+  BL_HD void find(Index i, Index n, Surfaces&& surface, double radius,
                   SurfaceContacts<Kinds, kMost>& found) const {
+    const Real R = grains.radius[i];
+    const Vec3d x = grains.x[i];
     for (Index k = 0; k < n; ++k) {
       const Index s = surface(k);
-      const Surface& of = walls.surfaces[s];
-      const BodyPose& pose = poses[of.body];
-      if (!pose.present) continue;
-      const SurfaceView view(of, pose, grains.frame, at);
-      const double reach = Kinds::reach(of, range);
-      if (Kinds::kTracked && view.beyond(walls, reach))
-        continue;  // for other kinds the closest point costs no more than this test
-      view.template each_closest_point<Kinds>(
-          walls, reach, 1e-4 * double(R), [&](const ClosestPoint& closest) { found.add(s, closest, range); });
+      const std::uint32_t body = walls.surfaces[s].body;
+      if (!poses[body].present) continue;
+      double reach = radius;
+      if constexpr (apart) reach += double(law(body, i).range() * R);
+      found.seek(walls, s, poses[body], grains.frame, x, 1e-4 * double(R), radius, reach);
     }
-  }
-  /// Memory of a contact of grain i, perhaps inherited from another body that it has left for this one. A new
-  /// contact has had its normal before.
-  template <class Scope>
-  BL_HD WallMemory taken_over(const Grain& grain, Index i,
-                              const SurfaceContacts<typename Scope::Kinds>& found,
-                              const SurfaceContact& contact) const {
-    using Law = typename Scope::Law;
-    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
-    WallMemory memory = memories(i)[contact.from];
-    const std::uint32_t left = found.body_of(memory);
-    memory.key = contact.key();
-    if (left != contact.body)
-      composed<Law>(law(contact.body, i))
-          .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, memory.history);
-    return memory;
   }
   template <class Scope, class F>
   BL_HD void evaluate(const Grain& grain, const SurfaceContact& contact, const ContactLaw& law,
@@ -172,7 +155,7 @@ struct WallContacts {
     const ClosestPoint& closest = contact.closest;
     const BodyPose& pose = poses[contact.body];
     ContactHistory& h = memory.history;
-    h.overlap = std::abs(h.overlap);
+    h.overlap = law.last_overlap(h);
     const Vec3d point = grain.x - closest.distance * closest.normal;
     const Vec3d r = arm(pose, point);
     ContactGeometry at =
@@ -190,7 +173,6 @@ struct WallContacts {
       f(contact.body, Contact{on_grain, point}, Course{contact.from, at, v_wall, law, h});
     else
       f(contact.body, Contact{on_grain, point});
-    h.overlap *= closest.side;
     memory.normal = closest.normal;
   }
 };

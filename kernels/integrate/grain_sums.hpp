@@ -70,8 +70,8 @@ struct TotalsReduction {
       const ContactHistory h = contacts.histories[slot];
       const Sphere o = g.sphere(j);
       t.sum[pairs] += 0.5;
-      const ContactLaw& law = contacts.laws ? contacts.laws[contacts.pair_of(i, j)] : contacts.law;
-      t.sum[elastic] += 0.5 * law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
+      t.sum[elastic] +=
+          0.5 * contacts.law_of(i, j).stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
       t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
     });
     const WallMemories memory = walls.memories(i);
@@ -79,8 +79,9 @@ struct TotalsReduction {
       const ContactHistory& h = memory[k].history;
       const std::uint32_t body = walls.walls.surfaces[memory[k].surface()].body;
       t.sum[on_walls] += 1;
-      t.sum[elastic] += walls.law(body, i).stored(s.R, s.m, h);
-      t.overlap = max_of(t.overlap, std::abs(h.overlap) / (2 * double(s.R)));
+      const ContactLaw& law = walls.law(body, i);
+      t.sum[elastic] += law.stored(s.R, s.m, h);
+      t.overlap = max_of(t.overlap, law.last_overlap(h) / (2 * double(s.R)));
     }
     return t;
   }

@@ -10,18 +10,9 @@ template <class F>
 BL_HD void each_contact(const ContactPass& contacts, Index i, F&& f) {
   contacts.list.each(i, [&](std::uint64_t slot, Index j) {
     if (!contacts.histories.touching[slot]) return;
-    const GrainView& g = contacts.grains;
-    const bool first = g.id[i] < g.id[j];
-    const Index lo = first ? i : j, hi = first ? j : i;  // as in ContactPass
-    const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
-    const Vec3d r = g.frame.separation(g.x[lo], g.x[hi]);
-    const SphereGap gap(r, R_lo, R_hi);
-    if (!gap.overlaps()) return;
-    const ContactGeometry at =
-        sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), r, gap.distance, gap.overlap());
-    PairHistory h = contacts.histories[slot];
-    const Real3 v_rel = g.v[lo] - g.frame.seen(g.v[hi], g.x[lo], g.x[hi]);
-    f(j, first, contacts.law_of(lo, hi)(at, v_rel, g.omega[lo], g.omega[hi], 0, h).force, r);
+    const bool first = contacts.grains.id[i] < contacts.grains.id[j];
+    const ContactPass::Seen pair = contacts.look(first ? i : j, first ? j : i, slot);
+    if (pair.acts) f(j, first, pair.on_lo.force, pair.r);
   });
 }
 

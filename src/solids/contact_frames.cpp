@@ -86,7 +86,7 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
       const std::vector<WallMemory> memory = wall_memory_[k]->values();
       for (Index i = 0; i < g.owned().size(); ++i) {
         if (Index(k) >= count[i]) continue;
-        const double overlap = std::abs(memory[i].history.overlap);
+        const double overlap = memory[i].history.overlap;
         const Vec3d n = memory[i].normal, point = x[i] - (double(radius[i]) - overlap) * n;
         lines.push_back({.id = id[i],
                          .body = walls_.surfaces()[memory[i].surface()].body + 1,

@@ -226,7 +226,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
                  .clump = clumps_.of_grains(),
                  .largest = 0.5 * parameters_.d_max,
                  .skin = skin(),
-                 .film = film_range(1),
+                 .range = range_beyond(parameters_.pair_laws, 1),
                  .stretch = as_listed().stretch()};
   // few lanes: rows are short, and contacts use so many registers that more threads would not run at once
   const unsigned bits = std::min(lane_bits(Index(grains.everywhere()), 3u << 14), 3u);
@@ -236,7 +236,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
     list_.build(grains.owned().size(), grid.view(), near, bits);
   long_rows_.cut(list_, in_levels() ? levels_.particles(levels_.count() - 1).begin : 0);
   by_pieces_.reserve_and_resize(long_rows_.pieces());
-  near.film = 0;
+  near.range = 0;
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
   histories_.reset(list_.slots());
   listed_id_.reserve_and_resize(grains.size());

@@ -52,7 +52,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       bodies_(bodies),
       clumps_(parameters, frame, grains),
       levels_(frame),
-      wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)),
+      wall_list_(frame, walls, skin(), range_beyond(parameters.wall_laws, parameters.d_max / 2)),
       load_bounds_(bounds_of_loads(parameters, frame)),
       arriving_(std::make_unique<ArrivingContacts>(parameters.spectra.per_decade > 0)) {
   frame_.shear = {parameters.shear_rate, 0, frame.origin.z, frame.length.z};

@@ -1,6 +1,7 @@
 #pragma once
 // Moves the grains: contacts with each other and with walls, fluid forces, drag, in substeps.
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -76,7 +77,9 @@ class SolidSolver {
 
   double skin() const { return parameters_.skin; }  ///< m
   /// Largest centre distance in the lists, m.
-  double range() const { return parameters_.d_max + skin() + film_range(parameters_.d_max / 4); }
+  double range() const {
+    return parameters_.d_max + skin() + range_beyond(parameters_.pair_laws, parameters_.d_max / 4);
+  }
   const ContactLaw& law() const { return parameters_.pair_laws[0]; }
 
   /// With several ranks: divides the blocks of cells among them by the grains in them, at x.
@@ -132,12 +135,14 @@ class SolidSolver {
 
   ParticleBytes scratch_bytes() const {
     const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
+    const double more = cube(range() / (parameters_.d_max + skin()));  // entries, by what does not touch
     return {.grains = of_grains_.entry_bytes() + clumps_.scratch_bytes() +
                       (books_ ? EnergyBooks::kScratch : 0) +
                       (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
-            .near_grains = sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
-                           (books_ ? sizeof(ContactAction) : 0) + (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
-                           (forces_ ? sizeof(Real3) : 0)};
+            .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
+                                                     (books_ ? sizeof(ContactAction) : 0) +
+                                                     (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
+                                                     (forces_ ? sizeof(Real3) : 0)))};
   }
 
   /// Histories of wall contacts.
@@ -213,7 +218,12 @@ class SolidSolver {
   GrainView view(const GrainStore& grains) const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
-  double film_range(double R_star) const { return double(parameters_.films.range(Real(R_star))); }  ///< m
+  /// How far apart two grains, or a grain and a wall, are near each other for lubrication and these laws, m.
+  double range_beyond(const std::vector<ContactLaw>& laws, double R_star) const {
+    double most = double(parameters_.films.range(Real(R_star)));
+    for (const ContactLaw& law : laws) most = std::max(most, double(law.range()) * R_star);
+    return most;
+  }
   LubricationPass films(const GrainStore& grains, ContactSum* sums) const;
   /// Into by_walls_: the wall contacts of the grains, and what they do to free bodies.
   template <class Scope>

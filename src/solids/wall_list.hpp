@@ -16,8 +16,8 @@ class WallList {
  public:
   static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
-  /// `walls` must outlive it; skin: of the grains' list, m; gap: range of lubrication between grain and wall,
-  /// m.
+  /// `walls` must outlive it; skin: of the grains' list, m; gap: up to which grain and wall act on each
+  /// other, m.
   WallList(const Frame& frame, const WallGeometry& walls, double skin, double gap)
       : frame_(frame), walls_(walls), skin_(skin), gap_(gap) {}
 

@@ -136,6 +136,38 @@ TEST(Walls, RectangleIsFeltFromBothSidesAndPushesBackWhatHasPassed) {
   EXPECT_NEAR(b.velocity(3).z, -0.5, 1e-6) << "nothing there";
 }
 
+TEST(Walls, HoldWhatHasTouchedThemOnItsSideUpToTheReach) {
+  Config c;
+  c.domain.min = {-1, -1, -1}, c.domain.max = {1, 1, 1};
+  c.wall.bodies = {box({-0.5, -0.5, 0}, {0.5, 0.5, 0.5}, "tank")};
+  c.wall.bodies[0].faces = {false, false, false, false, true, false};
+  const WallGeometry geometry(c.wall.bodies, c.domain);
+  const Frame frame(c.domain.min, c.domain.max, false, false, false);
+  const double R = 0.01, reach = 1.2 * R;
+  WallMemory memory;
+  WallMemory* slots[] = {&memory};
+  Index count = 0;
+  const auto found = [&](double z) {
+    SurfaceContacts<> out({slots, &count, 0}, geometry.view().surfaces.data, 1);
+    out.seek(geometry.view(), 0, BodyPose{}, frame, {0, 0, z}, 1e-4 * R, R, reach);
+    out.resolve();
+    out.drop_apart(R);
+    return out;
+  };
+  for (const double side : {1.0, -1.0}) {
+    count = 0;
+    EXPECT_EQ(found(1.1 * side * R).size(), 0) << "it has not touched";
+    ASSERT_EQ(found(0.9 * side * R).size(), 1);
+    memory = {found(0.9 * side * R)[0].key(), {0, 0, side}, {}}, count = 1;
+    EXPECT_EQ(found(1.1 * side * R).size(), 1);
+    EXPECT_EQ(found(1.3 * side * R).size(), 0);
+    const auto passed = found(-0.1 * side * R);
+    ASSERT_EQ(passed.size(), 1);
+    EXPECT_NEAR(passed[0].closest.distance, -0.1 * R, 1e-12) << "its centre has passed the patch";
+    EXPECT_EQ(passed[0].closest.normal, Vec3d(0, 0, side));
+  }
+}
+
 /// Where a grain is after sliding and rolling along faces, an edge and into a corner of a tank, with
 /// friction, beside another body, which it never meets.
 std::vector<Vec3d> along_a_tank(const std::function<void(GrainBench&)>& with) {

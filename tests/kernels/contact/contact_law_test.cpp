@@ -441,5 +441,40 @@ TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
   }
 }
 
+/// A spring that pulls, too, up to a gap of a fifth of R*.
+struct HoldingSpring : LinearSpring {
+  Real range = Real(0.2);
+};
+using Holding = ContactLawOf<HoldingSpring, NoSliding, NoRolling>;
+
+TEST(ContactLaw, ReachesAsFarAsItsRange) {
+  static_assert(!ContactLawOf<Hertz, Mindlin, ElasticPlasticRolling>::kApart && Holding::kApart);
+  Holding law;
+  law.normal.k = 1000, law.normal.beta = Real(0.1);
+  const double range = 0.2 * kRadius / 2;
+  const auto acts = [&](double gap, bool touched) {
+    return law.acts(SphereGap({0, 0, 2 * double(kRadius) + gap}, kRadius, kRadius), kRadius, kRadius,
+                    touched);
+  };
+  EXPECT_TRUE(acts(-1e-6, false));
+  EXPECT_TRUE(acts(0.99 * range, true));
+  EXPECT_FALSE(acts(1.01 * range, true));
+  EXPECT_FALSE(acts(0.5 * range, false)) << "they have not touched";
+
+  const auto pull = [&](double gap, double speed, PairHistory& h) {
+    const double distance = 2 * double(kRadius) + gap;
+    const ContactGeometry at = sphere_contact(kGrain, kGrain, {0, 0, distance}, Real(distance), Real(-gap));
+    return law(at, {0, 0, Real(speed)}, {}, {}, Real(1e-7), h).force.z;
+  };
+  PairHistory h;
+  pull(-1e-6, 0, h);
+  EXPECT_NEAR(pull(1e-6, 0, h), -1e-3, 1e-8);
+  EXPECT_NEAR(law.stored(kRadius / 2, kGrain.m / 2, h), 0.5 * 1000 * 1e-12, 1e-16);
+  EXPECT_GT(pull(1e-6, -0.01, h), -1e-3) << "the dashpot slows what comes back";
+  EXPECT_NEAR(pull(1e-6, 0.01, h), -1e-3, 1e-8) << "it does not pull by itself";
+  pull(0, 0, h);
+  EXPECT_NE(h.overlap, 0) << "0 stands for pairs that have not touched";
+}
+
 }  // namespace
 }  // namespace BL_SOLVER
