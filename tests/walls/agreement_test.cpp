@@ -111,13 +111,13 @@ struct DrumBed {
   Mean lean, lever;
 
   explicit DrumBed(ShapePtr inside) {
-    const double rate = 12, dt = 2e-5;
+    const double rate = 12, dt = 4e-5;
     GrainBench b;
     b.config.gravity = {0, -9.81, 0};
     b.config.grain.mu = 0.5;
     b.config.contact.rolling = "epsd";
     b.config.grain.mu_r = 0.1;
-    b.config.grain.E = 5e6;
+    b.config.grain.E = 1.25e6;
     b.config.wall.bodies = {test::shaped("wall", make_hollow(inside, 0.005))};
     b.motion = [&](int, double t) {
       BodyPose p;
@@ -134,7 +134,7 @@ struct DrumBed {
                       1.1 + 2.1 * k + 0.02 * ((i + 2 * j) % 5)} *
                 R);
     b.start();
-    b.run(dt, 10000);
+    b.run(dt, 5000);
     constexpr int kBlocks = 10, kLooks = 200;
     const double weight = double(b.x.size()) * b.mass() * 9.81;
     for (int block = 0; block < kBlocks; ++block) {
