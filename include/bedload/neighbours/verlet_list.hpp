@@ -252,6 +252,7 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   slots_ = 0;
   if (rows == 0) return;
   taken_.resize(1);
+  if (entry_.size() == 0) make_room(0);  // loops read ahead, also where nothing is near
   using Search = detail::SliceSearch<Near>;
   const Index blocks = Index((slices() * 32 + Search::kThreads - 1) / Search::kThreads);
   for (;;) {
