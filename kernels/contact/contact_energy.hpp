@@ -78,35 +78,41 @@ struct EnergyFlow {
   }
 };
 
-/// Sums flows over a range.
-struct FlowReduction {
+/// Sums flows over grains.
+struct FlowTotal {
   using Value = EnergyFlow;
+  const EnergyFlow* of_grains;
   BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index i) const { return of_grains[i]; }
   BL_HD void combine(Value& into, const Value& from) const { into.add(from); }
 };
 
 /// Contacts between grains, before they are evaluated: histories stay as they are. Each counts in the row of
-/// its lower id. Losses are added up in both rows, as histories are.
-struct PairFlow : FlowReduction {
+/// its lower id. Losses are added up in both rows, as histories are. Runs over the lanes that share the rows.
+struct PairFlowPass {
   ContactPass contacts;    ///< of the substep; dt = 0: notes what acts at its start
   ContactAction* actions;  ///< [slots]
+  EnergyFlow* flows;       ///< [grains]
   OpenLosses losses = {};
 
-  BL_HD Value operator()(Index i) const {
-    Value flow = Value::zero();
-    contacts.list.each(i, [&](std::uint64_t slot, Index j) {
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, contacts.list.bits);
+    const Index i = lane.row;
+    EnergyFlow flow = EnergyFlow::zero();
+    contacts.list.each(lane, [&](std::uint64_t slot, Index j) {
       const bool first = contacts.grains.id[i] < contacts.grains.id[j];
       if (!first && !losses) return;
-      Value one = Value::zero();
+      EnergyFlow one = EnergyFlow::zero();
       add(first ? i : j, first ? j : i, slot, first, one);
       if (first) flow.add(one);
     });
-    return flow;
+    lane.combine(flow, [](EnergyFlow& into, const EnergyFlow& other) { into.add(other); });
+    if (lane.index == 0) flows[i].add(flow);
   }
 
  private:
   /// counts: this row is the one that enters the loss of a contact that ends.
-  BL_HD void add(Index i, Index j, std::uint64_t slot, bool counts, Value& flow) const {
+  BL_HD void add(Index i, Index j, std::uint64_t slot, bool counts, EnergyFlow& flow) const {
     const GrainView& g = contacts.grains;
     const ContactPass::Seen pair = contacts.look(i, j, slot);
     if (!pair.touched && !pair.acts) return;
@@ -136,20 +142,21 @@ struct PairFlow : FlowReduction {
 };
 
 /// The same of contacts with walls, over the grains near them, and the work of the walls.
-struct WallFlow : FlowReduction {
+struct WallFlowPass {
   WallContacts contacts;
   WallRows rows;
   ContactAction* actions;  ///< [capacity][grains], as memories
+  EnergyFlow* flows;       ///< [grains]
   OpenLosses losses = {};
   WallWear wear = {};
 
-  BL_HD Value operator()(Index row) const {
+  BL_HD void operator()(Index row) const {
     const Index i = rows.grain[row];
     const GrainView& g = contacts.grains;
     const WallMemories memories = contacts.memories(i);
     const Sphere own = g.sphere(i);
     const double dt = contacts.dt;
-    Value flow = Value::zero();
+    EnergyFlow flow = EnergyFlow::zero();
     RawArray<ContactAction, kMostWallContacts> now;
     RawArray<ContactLoss, kMostWallContacts> lost;
     unsigned kept = 0;  // memories that contacts continue, by bits
@@ -157,7 +164,7 @@ struct WallFlow : FlowReduction {
     const auto count = [&](const Turn& c, ContactLoss& loss) {
       const BodyPose& pose = contacts.poses[c.body];
       const Real3 v = g.v[i] - Real3(c.v_wall);
-      Value one = Value::zero();
+      EnergyFlow one = EnergyFlow::zero();
       one.dissipate({v, g.omega[i], Real3(pose.omega), c.arm, 0}, dt, c.before, c.after, c.had, c.has);
       one.add_to(loss);
       flow.add(one);
@@ -222,7 +229,7 @@ struct WallFlow : FlowReduction {
       action(Index(k), i) = now[k];
       if (losses && dt > 0) losses.at_walls[i].of[k] = lost[k];
     }
-    return flow;
+    flows[i].add(flow);
   }
 
  private:
@@ -251,24 +258,30 @@ struct GrainCourse {
 
 /// Work of gravity and of the fluid since the last look: of what is constant between two kicks with the
 /// velocity there, of drag with the mean of those before and after.
-struct KickFlow : FlowReduction {
+struct KickFlowPass {
   GrainView grains;
   Vec3d gravity;  ///< mean over the substep, m/s2
   double dt;      ///< s; 0: drag alone
   Span<const Real3> fluid_force, drive;
   Span<const Real3> impulse, angular_impulse;  ///< of drag in this advance so far; empty without fluid
   GrainCourse* course;                         ///< [grains]; null without fluid
+  EnergyFlow* flows;                           ///< [grains]
   bool begins = false;                         ///< notes how an advance starts
 
-  BL_HD Value operator()(Index i) const {
-    Value flow = Value::zero();
+  BL_HD void operator()(Index i) const {
+    EnergyFlow flow = EnergyFlow::zero();
     const Vec3d v(grains.v[i]), omega(grains.omega[i]);
     flow.of[EnergyFlow::gravity] = dt * grains.mass(i) * dot(gravity, v);
     Vec3d force;
     if (fluid_force) force += Vec3d(fluid_force[i]);
     if (drive) force += Vec3d(drive[i]);
     flow.of[EnergyFlow::fluid] = dt * dot(force, v);
-    if (!course) return flow;
+    if (course) follow_drag(i, v, omega, flow);
+    flows[i].add(flow);
+  }
+
+ private:
+  BL_HD void follow_drag(Index i, const Vec3d& v, const Vec3d& omega, EnergyFlow& flow) const {
     GrainCourse now{grains.v[i], grains.omega[i], {}, {}};
     if (!begins) {
       const GrainCourse& was = course[i];
@@ -278,7 +291,6 @@ struct KickFlow : FlowReduction {
                  dot(Vec3d(now.angular_impulse - was.angular_impulse), omega + Vec3d(was.omega)));
     }
     course[i] = now;
-    return flow;
   }
 };
 

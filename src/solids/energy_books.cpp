@@ -48,10 +48,9 @@ std::vector<Quantity> SolidSolver::energy_terms(const GrainStore& g) const {
   return books_ ? books_->terms(energy(g)) : std::vector<Quantity>{};
 }
 
-void SolidSolver::begin_books(const GrainStore& g, const BodyPose* poses, const GrainKick& kick,
-                              int substeps) {
+void SolidSolver::begin_books(const GrainStore& g, const BodyPose* poses, const GrainKick& kick) {
   if (!books_->begun()) books_->begin(energy(g));
-  books_->begin_advance(substeps, list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(),
+  books_->begin_advance(list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(),
                         kick.wet());
   count_flows(g, poses, 0, kick, {});
 }
@@ -60,26 +59,26 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
                               const Vec3d& gravity) {
   if (parameters_.contacts) {
     const OpenLosses losses = spectra_ ? spectra_->view() : OpenLosses{};
-    books_->count(g.owned(), PairFlow{{}, contact_pass(g, dt), books_->of_pairs(), losses});
-    books_->count({0, wall_list_.size()}, WallFlow{{},
-                                                   wall_contacts(g, poses, dt),
-                                                   wall_list_.rows(),
-                                                   books_->at_walls(),
-                                                   losses,
-                                                   wear_ && dt > 0 ? wear_->view() : WallWear{}});
+    for_each(threads(), PairFlowPass{contact_pass(g, dt), books_->of_pairs(), books_->flows(), losses});
+    for_each({0, wall_list_.size()},
+             WallFlowPass{.contacts = wall_contacts(g, poses, dt),
+                          .rows = wall_list_.rows(),
+                          .actions = books_->at_walls(),
+                          .flows = books_->flows(),
+                          .losses = losses,
+                          .wear = wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
-  books_->count(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
+  for_each(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
 }
 
-void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick) {
-  if (kick.wet()) books_->count(g.owned(), kick_flow(g, 0, kick, {}, false));
-  books_->end_advance();
+void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick, int substeps) {
+  if (kick.wet()) for_each(g.owned(), kick_flow(g, 0, kick, {}, false));
+  books_->end_advance(g.owned(), substeps);
 }
 
-KickFlow SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick& kick, const Vec3d& gravity,
+KickFlowPass SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick& kick, const Vec3d& gravity,
                                 bool begins) const {
-  return {{},
-          view(g),
+  return {view(g),
           gravity,
           dt,
           kick.fluid_force,
@@ -87,6 +86,7 @@ KickFlow SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick&
           g.impulse.span(),
           g.spin_impulse.span(),
           books_->course(),
+          books_->flows(),
           begins};
 }
 

@@ -10,12 +10,12 @@
 
 namespace BL_SOLVER {
 
-/// Flows of the substeps stay on the device until an advance ends. What they need between two substeps is
-/// found again when an advance begins, so checkpoints hold the sums alone.
+/// Flows to each grain are added up on the device until an advance ends. What they need between two substeps
+/// is found again when an advance begins, so checkpoints hold the sums alone.
 class EnergyBooks {
  public:
   /// most: far above the energy that a grain takes or gives in a substep, J.
-  explicit EnergyBooks(double most) { most_.fill(most); }
+  explicit EnergyBooks(double most) : most_(most), all_(1) {}
   bool begun() const { return begun_; }
   /// Begins with so much energy of grains, J.
   void begin(double energy) { begun_ = true, start_ = energy, sum_ = EnergyFlow::zero(); }
@@ -23,23 +23,22 @@ class EnergyBooks {
   void forget() { begun_ = false, sum_ = EnergyFlow::zero(); }
 
   /// Sizes what an advance needs; drag: whether the fluid gives impulses.
-  void begin_advance(int substeps, std::size_t slots, std::size_t wall_slots, Index grains, bool drag) {
-    flows_.resize(std::size_t(kPasses) * (substeps + 2));
-    used_ = 0;
+  void begin_advance(std::size_t slots, std::size_t wall_slots, Index grains, bool drag) {
+    flows_.reserve_and_resize(grains);
+    flows_.zero();
     of_pairs_.reserve_and_resize(slots);
     at_walls_.reserve_and_resize(wall_slots);
     course_.resize(drag ? grains : 0);
   }
-  /// Counts what a reduction over a range finds, and over those of other ranks.
-  template <class Reduction>
-  void count(Range range, const Reduction& flow) {
-    total_into(flows_.data() + used_++, range, flow, most_);
-  }
-  void end_advance() {
-    const std::vector<EnergyFlow> flows = flows_.to_host();
-    for (std::size_t k = 0; k < used_; ++k) sum_.add(flows[k]);
+  /// Adds what has flowed to these grains, and to those of other ranks.
+  void end_advance(Range grains, int substeps) {
+    std::array<double, EnergyFlow::kTerms> most;
+    most.fill(most_ * (substeps + 2));
+    total_into(all_.data(), grains, FlowTotal{flows_.data()}, most);
+    sum_.add(all_.to_host()[0]);
   }
 
+  EnergyFlow* flows() { return flows_.data(); }
   ContactAction* of_pairs() { return of_pairs_.data(); }
   ContactAction* at_walls() { return at_walls_.data(); }
   GrainCourse* course() { return course_.size() > 0 ? course_.data() : nullptr; }
@@ -49,16 +48,15 @@ class EnergyBooks {
   void save(std::vector<Quantity>& scalars) const;
   /// Of a checkpoint without them: begins anew.
   void load(const std::vector<Quantity>& scalars);
-  static constexpr std::size_t kScratch = sizeof(GrainCourse);  ///< bytes of a grain in fluid
+  static constexpr std::size_t kScratch = sizeof(EnergyFlow) + sizeof(GrainCourse);  ///< bytes of a grain in fluid
 
  private:
-  std::array<double, EnergyFlow::kTerms> most_;
-  static constexpr int kPasses = 3;  ///< of a substep: pairs, walls, kicks
+  double most_;  ///< J
   bool begun_ = false;
   double start_ = 0;  ///< J
   EnergyFlow sum_ = EnergyFlow::zero();
-  std::size_t used_ = 0;
-  Buffer<EnergyFlow> flows_;
+  Buffer<EnergyFlow> flows_;  ///< [grains]
+  Buffer<EnergyFlow> all_;    ///< [1]
   Buffer<ContactAction> of_pairs_, at_walls_;
   Buffer<GrainCourse> course_;
 };

@@ -246,7 +246,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     kick.fluid_force = std::as_const(g.fluid_force);
     kick.fluid_torque = *fluid_torque_;
   }
-  if (books_) begin_books(g, poses.data, kick, substeps);
+  if (books_) begin_books(g, poses.data, kick);
   const Velocities<Real3> rest{v_rest_, omega_rest_};
   for_each(g.owned(), FirstKickPass{.kick = kick,
                                     .force = g.force,
@@ -273,7 +273,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
       clumps_.follow(g, rest, 0, kick.h * kick.gravity), g.v.set_shared(false), g.omega.set_shared(false);
     if (free) free->substep(s), record_loads(s, *free);
   }
-  if (books_) end_books(g, kick);
+  if (books_) end_books(g, kick, substeps);
 }
 
 template <class Law>

@@ -262,13 +262,13 @@ class SolidSolver {
   }
   double energy(const GrainStore& grains) const;  ///< kinetic and elastic, J
   /// Notes what acts at the start of an advance, at these poses.
-  void begin_books(const GrainStore& grains, const BodyPose* poses, const GrainKick& kick, int substeps);
+  void begin_books(const GrainStore& grains, const BodyPose* poses, const GrainKick& kick);
   /// Flows of energy in a substep dt, before its contacts are evaluated; gravity: its mean, m/s2.
   void count_flows(const GrainStore& grains, const BodyPose* poses, double dt, const GrainKick& kick,
                    const Vec3d& gravity);
-  void end_books(const GrainStore& grains, const GrainKick& kick);
-  KickFlow kick_flow(const GrainStore& grains, double dt, const GrainKick& kick, const Vec3d& gravity,
-                     bool begins) const;
+  void end_books(const GrainStore& grains, const GrainKick& kick, int substeps);
+  KickFlowPass kick_flow(const GrainStore& grains, double dt, const GrainKick& kick, const Vec3d& gravity,
+                         bool begins) const;
   /// Forces of single contacts in a substep dt, before they are evaluated, if the case asks for them.
   void record_forces(const GrainStore& grains, const BodyPose* poses, double dt);
   /// What the grains do in substep s to bodies with prescribed motion. dt: of the substep, s: before contacts
