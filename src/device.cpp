@@ -243,7 +243,8 @@ void take_device(const Device& device, int rank, int threads) {
   omp_set_num_threads(std::max(1, threads / device.ranks));
 }
 
-/// Memory of the host from which copies to a device are fast.
+/// Memory of the host from which copies to a device are fast. 15 million particles have frames of a gigabyte,
+/// of which two are kept.
 void use_host_memory([[maybe_unused]] const Device& device) {
 #if BL_HAS_CUDA
   if (device.cuda())
@@ -254,7 +255,7 @@ void use_host_memory([[maybe_unused]] const Device& device) {
           (void)cudaGetLastError();
           return static_cast<void*>(nullptr);
         },
-        [](void* block) { cudaFreeHost(block); });
+        [](void* block) { cudaFreeHost(block); }, std::max(std::size_t(2) << 30, free_memory() / 8));
 #endif
 }
 

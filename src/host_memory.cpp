@@ -22,9 +22,10 @@ struct Blocks {
   std::mutex mutex;
   HostMemory::Allocate allocate = aligned;
   HostMemory::Free free = std::free;
-  std::size_t made = 0, kept = 0;  ///< bytes of all large blocks, and of those that wait
-  std::size_t count = 0;           ///< of large blocks ever made
-  std::vector<Head*> waiting;      ///< with space for all
+  std::size_t most = std::size_t(2) << 30;  ///< bytes that are kept
+  std::size_t made = 0, kept = 0;           ///< bytes of all large blocks, and of those that wait
+  std::size_t count = 0;                    ///< of large blocks ever made
+  std::vector<Head*> waiting;               ///< with space for all
 };
 /// Never destroyed: blocks may be given back while the program ends.
 Blocks& blocks() {
@@ -40,10 +41,10 @@ Head* make(std::size_t bytes, HostMemory::Allocate allocate, HostMemory::Free fr
 
 }  // namespace
 
-void HostMemory::use(Allocate allocate, Free free) {
+void HostMemory::use(Allocate allocate, Free free, std::size_t most) {
   Blocks& all = blocks();
   const std::lock_guard lock(all.mutex);
-  all.allocate = allocate, all.free = free;
+  all.allocate = allocate, all.free = free, all.most = most;
 }
 
 void* HostMemory::take(std::size_t bytes) {
@@ -65,13 +66,13 @@ void* HostMemory::take(std::size_t bytes) {
       return head + 1;
     }
     const std::size_t larger = bytes + bytes / 8;  // numbers of particles vary
-    while (all.made + larger > most_kept && !all.waiting.empty()) {
+    while (all.made + larger > all.most && !all.waiting.empty()) {
       Head* const oldest = all.waiting.front();
       all.waiting.erase(all.waiting.begin());
       all.made -= oldest->bytes, all.kept -= oldest->bytes;
       oldest->free(oldest);
     }
-    if (all.made + larger <= most_kept && (head = make(larger, all.allocate, all.free))) {
+    if (all.made + larger <= all.most && (head = make(larger, all.allocate, all.free))) {
       all.made += larger;
       all.waiting.reserve(++all.count);
       return head + 1;
@@ -90,6 +91,12 @@ void HostMemory::give_back(void* block) noexcept {
   const std::lock_guard lock(all.mutex);
   all.waiting.push_back(head);
   all.kept += head->bytes;
+}
+
+std::size_t HostMemory::most_kept() {
+  Blocks& all = blocks();
+  const std::lock_guard lock(all.mutex);
+  return all.most;
 }
 
 std::size_t HostMemory::kept() {

@@ -62,17 +62,17 @@ TEST_F(HostMemoryTest, ContentsMoveBetweenThreads) {
 }
 
 TEST_F(HostMemoryTest, KeepsNoMoreThanItsLimit) {
-  constexpr std::size_t n = HostMemory::most_kept / 3;
+  const std::size_t n = HostMemory::most_kept() / 3;
   {
     const HostBytes one(n), two(n), beyond(n);  // never written, so no memory is used
     EXPECT_LE(made, 2);
   }
-  EXPECT_LE(HostMemory::kept(), HostMemory::most_kept);
+  EXPECT_LE(HostMemory::kept(), HostMemory::most_kept());
   const int kept = made;
   { const HostBytes larger(2 * n); }
   EXPECT_EQ(made, kept + 1);
   EXPECT_GE(freed, 1) << "blocks that wait give way to one that does not fit them";
-  EXPECT_LE(HostMemory::kept(), HostMemory::most_kept);
+  EXPECT_LE(HostMemory::kept(), HostMemory::most_kept());
 }
 
 TEST_F(HostMemoryTest, TakesOrdinaryMemoryWhereTheDeviceHasNone) {

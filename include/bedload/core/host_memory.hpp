@@ -9,16 +9,16 @@
 
 namespace bedload {
 
-/// Takes and gives back large blocks, which are kept for the next frame or checkpoint, up to most_kept bytes
-/// in all. For a GPU they are page-locked, which makes copies to them several times as fast. For all threads.
+/// Takes and gives back large blocks, which are kept for the next frame or checkpoint, up to most_kept()
+/// bytes in all. For a GPU they are page-locked, which makes copies to them several times as fast, and lets
+/// the host go on meanwhile. For all threads.
 class HostMemory {
  public:
-  static constexpr std::size_t most_kept = std::size_t(2) << 30;
-
   using Allocate = void* (*)(std::size_t);  ///< null where there is no more
   using Free = void (*)(void*);
-  /// Where blocks are taken from from now on; std::malloc by default.
-  static void use(Allocate allocate, Free free);
+  /// Where blocks are taken from from now on, std::malloc by default, and how many bytes of them are kept.
+  static void use(Allocate allocate, Free free, std::size_t most = std::size_t(2) << 30);
+  static std::size_t most_kept();
   /// Throws std::bad_alloc. Aligned to 64 bytes.
   static void* take(std::size_t bytes);
   static void give_back(void* block) noexcept;
