@@ -53,6 +53,7 @@ struct CountRow {
   BL_HD std::uint32_t start(Index) const { return 0; }
   BL_HD auto sources() const { return sources_of(); }
   BL_HD void pair(std::uint32_t& n, const Real3&, Real, Real) const { ++n; }
+  BL_HD void merge(std::uint32_t& n, std::uint32_t other) const { n += other; }
   BL_HD void finish(Index i, std::uint32_t n) const { count[i] = n; }
 };
 
@@ -196,6 +197,7 @@ TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
   p.assign(packed(c.frame, x));
   const PairSeparation separation{c.frame, p, p};
   VerletList list;
+  Buffer<std::uint32_t> count(n);
 #if BL_CUDA
   TileList tiles;
 #endif
@@ -208,6 +210,9 @@ TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
       for (Index j = 0; j < n; ++j)
         if (i != j && norm(c.frame.separation(x[i], x[j])) < range) expected[i].insert(j), ++pairs;
     EXPECT_EQ(rows_of(list, separation, range), expected) << range;
+    for_each_pair({0, n}, list, separation, range, CountRow{count});  // by lanes, which read ahead
+    const auto counts = count.to_host();
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::size_t(0)), pairs) << range;
     EXPECT_GE(list.slots(), pairs);
     EXPECT_GE(list.bytes(), std::max(most, pairs) * sizeof(Index)) << "memory is kept";
     most = std::max(most, pairs);
