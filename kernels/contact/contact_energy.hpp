@@ -89,6 +89,7 @@ struct FlowTotal {
 
 /// Contacts between grains, before they are evaluated: histories stay as they are. Each counts in the row of
 /// its lower id. Losses are added up in both rows, as histories are. Runs over the lanes that share the rows.
+template <class Law>
 struct PairFlowPass {
   ContactPass contacts;    ///< of the substep; dt = 0: notes what acts at its start
   ContactAction* actions;  ///< [slots]
@@ -114,11 +115,11 @@ struct PairFlowPass {
   /// counts: this row is the one that enters the loss of a contact that ends.
   BL_HD void add(Index i, Index j, std::uint64_t slot, bool counts, EnergyFlow& flow) const {
     const GrainView& g = contacts.grains;
-    const ContactPass::Seen pair = contacts.look(i, j, slot);
+    const ContactPass::Seen pair = contacts.look<Law>(i, j, slot);
     if (!pair.touched && !pair.acts) return;
     const Sphere a = g.sphere(i), b = g.sphere(j);
     const Real R_star = a.R * b.R / (a.R + b.R), m_star = a.m * b.m / (a.m + b.m);
-    const ContactLaw& law = contacts.law_of(i, j);
+    const Law& law = composed<Law>(contacts.law_of(i, j));
     ContactMotion motion{pair.v, g.omega[i], g.omega[j], a.R, b.R};
     StoredEnergy had, has;
     ContactAction before{}, now{};

@@ -170,6 +170,7 @@ struct ContactPass {
     ContactGeometry at;         ///< if it acts, as what follows
     ContactForce on_lo;
   };
+  template <class Law = ContactLaw>
   BL_HD Seen look(Index lo, Index hi, std::uint64_t slot) const {
     const GrainView& g = grains;
     Seen pair{};
@@ -179,11 +180,11 @@ struct ContactPass {
     if (pair.touched) pair.before = pair.after = histories[slot];
     const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
     const SphereGap gap(pair.r, R_lo, R_hi);
-    pair.acts = meet(lo, hi, gap, R_lo, R_hi, pair.touched);
+    pair.acts = meet<Law>(lo, hi, gap, R_lo, R_hi, pair.touched);
     if (!pair.acts) return pair;
     pair.at = sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), pair.r, gap.distance, gap.overlap(),
                              Vec3d(dt * pair.v));
-    pair.on_lo = law_of(lo, hi)(pair.at, pair.v, g.omega[lo], g.omega[hi], dt, pair.after);
+    pair.on_lo = composed<Law>(law_of(lo, hi))(pair.at, pair.v, g.omega[lo], g.omega[hi], dt, pair.after);
     return pair;
   }
 

@@ -50,8 +50,7 @@ std::vector<Quantity> SolidSolver::energy_terms(const GrainStore& g) const {
 
 void SolidSolver::begin_books(const GrainStore& g, const BodyPose* poses, const GrainKick& kick) {
   if (!books_->begun()) books_->begin(energy(g));
-  books_->begin_advance(list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(),
-                        kick.wet());
+  books_->begin_advance(list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(), kick.wet());
   count_flows(g, poses, 0, kick, {});
 }
 
@@ -59,16 +58,24 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
                               const Vec3d& gravity) {
   if (parameters_.contacts) {
     const OpenLosses losses = spectra_ ? spectra_->view() : OpenLosses{};
-    for_each(threads(), PairFlowPass{contact_pass(g, dt), books_->of_pairs(), books_->flows(), losses});
-    for_each({0, wall_list_.size()},
-             WallFlowPass{.contacts = wall_contacts(g, poses, dt),
-                          .rows = wall_list_.rows(),
-                          .actions = books_->at_walls(),
-                          .flows = books_->flows(),
-                          .losses = losses,
-                          .wear = wear_ && dt > 0 ? wear_->view() : WallWear{}});
+    (this->*count_pair_flows_)(g, dt, losses);
+    for_each({0, wall_list_.size()}, WallFlowPass{.contacts = wall_contacts(g, poses, dt),
+                                                  .rows = wall_list_.rows(),
+                                                  .actions = books_->at_walls(),
+                                                  .flows = books_->flows(),
+                                                  .losses = losses,
+                                                  .wear = wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   for_each(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
+}
+
+template <class Law>
+void SolidSolver::count_pair_flows(const GrainStore& g, double dt, const OpenLosses& losses) {
+  for_each(threads(), PairFlowPass<Law>{contact_pass(g, dt), books_->of_pairs(), books_->flows(), losses});
+}
+
+void SolidSolver::choose_flow_law() {
+  with_contact_law(parameters_.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_flow_law<Law>(); });
 }
 
 void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick, int substeps) {
@@ -76,8 +83,8 @@ void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick, int subs
   books_->end_advance(g.owned(), substeps);
 }
 
-KickFlowPass SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick& kick, const Vec3d& gravity,
-                                bool begins) const {
+KickFlowPass SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick& kick,
+                                    const Vec3d& gravity, bool begins) const {
   return {view(g),
           gravity,
           dt,

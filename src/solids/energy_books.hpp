@@ -48,7 +48,8 @@ class EnergyBooks {
   void save(std::vector<Quantity>& scalars) const;
   /// Of a checkpoint without them: begins anew.
   void load(const std::vector<Quantity>& scalars);
-  static constexpr std::size_t kScratch = sizeof(EnergyFlow) + sizeof(GrainCourse);  ///< bytes of a grain in fluid
+  static constexpr std::size_t kScratch =
+      sizeof(EnergyFlow) + sizeof(GrainCourse);  ///< bytes of a grain in fluid
 
  private:
   double most_;  ///< J

@@ -60,6 +60,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
+  choose_flow_law();
   if (parameters.energy) books_ = std::make_unique<EnergyBooks>(most_energy(parameters));
   if (parameters.spectra.per_decade > 0)
     spectra_ = std::make_unique<SpectraBooks>(parameters, grains, walls.contacts() > 0);

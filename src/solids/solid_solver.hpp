@@ -266,6 +266,13 @@ class SolidSolver {
   /// Flows of energy in a substep dt, before its contacts are evaluated; gravity: its mean, m/s2.
   void count_flows(const GrainStore& grains, const BodyPose* poses, double dt, const GrainKick& kick,
                    const Vec3d& gravity);
+  template <class Law>
+  void count_pair_flows(const GrainStore& grains, double dt, const OpenLosses& losses);
+  template <class Law>
+  void use_flow_law() {
+    count_pair_flows_ = &SolidSolver::count_pair_flows<Law>;
+  }
+  void choose_flow_law();
   void end_books(const GrainStore& grains, const GrainKick& kick, int substeps);
   KickFlowPass kick_flow(const GrainStore& grains, double dt, const GrainKick& kick, const Vec3d& gravity,
                          bool begins) const;
@@ -297,6 +304,7 @@ class SolidSolver {
   mutable Buffer<WallMemory*> device_memory_pointers_;
 
   // compiled for the contact laws and surface kinds of the case
+  void (SolidSolver::*count_pair_flows_)(const GrainStore&, double, const OpenLosses&) = nullptr;
   void (SolidSolver::*end_substep_)(GrainStore&, const ContactPass&, const GrainKick&, double,
                                     bool) = nullptr;
   void (SolidSolver::*evaluate_pieces_)(const ContactPass&) = nullptr;
