@@ -231,6 +231,18 @@ min = [-0.04, -0.03, -0.04]
 max = [0.04, 0.03, 0.04]
 cell = 0.02
 )";
+/// Large grains among small ones a fifth as wide, some of which touch them, in such a drum.
+const std::string kTwoSizes = R"([[grain.fill]]
+shape = "inside"
+count = 4
+[[grain.fill.sizes]]
+d = 0.016
+[[grain.fill]]
+shape = "inside"
+count = 900
+[[grain.fill.sizes]]
+d = 0.003
+)";
 /// Some touch each other, some the floor.
 const std::string kSingle = R"([grain]
 d = 0.01
@@ -278,6 +290,22 @@ d = 0.008
 min = [0, 0, 0]
 max = [0.1, 0.06, 0.08]
 count = 80
+)";
+/// The same of two sizes, of which each has its own averaging length.
+const std::string kTwoSizesOfSlurry = R"([grain]
+d = 0.004
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.08]
+count = 3
+[[grain.fill.sizes]]
+d = 0.02
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.08]
+count = 300
+[[grain.fill.sizes]]
+d = 0.004
 )";
 /// Of this slope, with rods among the grains.
 const std::string kRods = R"([[clump]]
@@ -369,12 +397,14 @@ std::vector<RankCase> rank_cases() {
        100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
       {"drifting bed", drifting_bed(), {"out.spectra=true", "out.contacts=touching"}, 60},
+      {"drum of large and small grains", kDrum + kTwoSizes, {"out.spectra=true", "grain.settle=true"}, 40},
       {"slope with inlet and outlet of grains", kSlope, {}, 100},
       {"slope with clumps", kSlope + kRods, {}, 80},
       {"settled grains", kDrum, {"grain.settle=true"}, 60},
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
       {"grains in fluid that do not act on it", kTank + kFluid + kSingle, {"couple.mode=off"}, 40},
       {"slurry", kDam + kSlurry, {}, 60},
+      {"slurry of large and small grains", kDam + kTwoSizesOfSlurry, {}, 30},
       {"bed with a rigid group", test::kBed + kGate, {}, 30},
       {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
       {"slurry, one way, mirrored walls", kDam + kSlurry, {"couple.mode=one_way", "wall.type=mdbc"}, 30},
@@ -610,10 +640,8 @@ TEST(RankLimits, NameWhatCannotBeDividedYet) {
   EXPECT_EQ(refused(kDrum, {}), "");
   EXPECT_EQ(refused(kDam + kSlurry + test::kFloat, {}), "");
   EXPECT_EQ(refused(test::kBed, {}), "");
-  EXPECT_EQ(refused(kDrum + "[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]\ncount = "
-                            "2\n[[grain.fill.sizes]]\nd = 0.005\n[[grain.fill.sizes]]\nd = 0.002\n",
-                    {}),
-            "grain");
+  EXPECT_EQ(refused(kDrum + kTwoSizes, {}), "");
+  EXPECT_EQ(refused(kTank + test::kFloat, {}), "fluid");
 }
 
 }  // namespace
