@@ -50,6 +50,8 @@ class SizeLevels {
               Buffer<std::uint32_t>& cell) const;
 
  private:
+  void arrange(Span<const Vec3d> x, Span<const Real> radius, Buffer<Index>& order, Span<const Id> id);
+
   struct Level {
     double largest, cell;  ///< radius, m; width of its cells, m
     bool operator==(const Level&) const = default;
@@ -59,10 +61,8 @@ class SizeLevels {
   std::vector<Level> levels_;  ///< those of grids_
   std::vector<CellGrid> grids_;
   std::vector<Index> begin_;
-  void arrange(Span<const Vec3d> x, Span<const Real> radius, Buffer<Index>& order, Span<const Id> id);
-
   Buffer<Index> by_level_, in_level_, begins_;
-  Buffer<Index> with_ghosts_;
+  Buffer<Index> with_ghosts_;  ///< their order, where there are any
   Index own_ = 0, larger_ = 0;
 };
 
