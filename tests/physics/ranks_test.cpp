@@ -272,7 +272,8 @@ end = 1
 every = 1
 )";
 }
-/// Two large grains in shells of small ones, which drift from block to block: their rows are long.
+/// Two soft large grains in shells of small ones, which drift from block to block: their rows are long, and
+/// contacts outlive lists.
 std::string drifting_shells() {
   std::string places;
   for (int k = 0; k < 300; ++k) {
@@ -292,7 +293,7 @@ max = [0.06, 0.03, 0.03]
 periodic = [true, true, false]
 [grain]
 d = 0.0008
-E = 1e7
+E = 1e4
 mu_r = 0.05
 [[grain.fill]]
 positions = [[0.01, 0.015, 0.015], [0.032, 0.015, 0.015]]
