@@ -85,7 +85,8 @@ struct CarryHistoryPass {
 };
 
 /// The same of rows in pieces, over the entries that pieces may have. Both partners of a pair hold its
-/// history: it is taken from that of the smaller grain, whose row is short.
+/// history: it is taken from that of the smaller grain, whose row is short, unless another rank has or had
+/// it.
 struct CarryLongHistoryPass {
   CarryHistoryPass rows;
   BL_HD void operator()(Index of_piece) const {
@@ -95,11 +96,13 @@ struct CarryLongHistoryPass {
     const std::uint32_t k = long_rows.begin(piece) + of_piece % LongRowsView::kPiece;
     if (order[i] == kNone || k >= to.count[i]) return;
     const std::uint64_t slot = to.slot(i, k);
-    const Index was_j = order[to.entry[slot]];
-    if (was_j == kNone) return;
-    for (std::uint32_t n = 0; n < from.count[was_j]; ++n) {
-      const std::uint64_t old_slot = from.slot(was_j, n);
-      if (from.entry[old_slot] != order[i]) continue;
+    const Index j = to.entry[slot], was_j = j < order.size ? order[j] : kNone;
+    const bool short_row = was_j != kNone;
+    const Index row = short_row ? was_j : order[i];
+    for (std::uint32_t n = 0; n < from.count[row]; ++n) {
+      const std::uint64_t old_slot = from.slot(row, n);
+      const Index was = from.entry[old_slot];
+      if (short_row ? was != order[i] : former_id[was] != id[j]) continue;
       if (old_histories.touching[old_slot]) rows.carry(old_slot, slot);
       return;
     }

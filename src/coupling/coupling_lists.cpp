@@ -30,6 +30,18 @@ struct StoredIndexPass {
   }
 };
 
+/// Numbers of cells in the domain, in the order of which one rank has them.
+struct CellNumberPass {
+  CellGridView grid;
+  Frame frame;
+  Span<const FluidPosition> x;
+  Span<std::uint32_t> cell;
+  BL_HD void operator()(Index i) const {
+    const Vec3d at = coordinates(frame, x[i]);
+    cell[i] = grid.number(grid.coordinate(at.x, 0), grid.coordinate(at.y, 1), grid.coordinate(at.z, 2));
+  }
+};
+
 /// CrossNear of fluid i and grain j, each grain with its own averaging length.
 struct OwnGrainsNear {
   CrossNear<FluidPosition, Vec3d> near;  ///< b: in that order
@@ -145,7 +157,16 @@ void Coupling::build_own(const FluidStore& fluid, const CellGridView& fluid_grid
                                   .largest = farthest_};
   const CellGridView fluid_cells = fluid_grid.for_reach(range_.least + skins);
   if (in_levels) {
-    level_lists_.build(of_fluid_rows, of_grain_rows, *grain_cells.levels, fluid.owned().size(), grains_near,
+    ListOrder rows{{}, fluid.owned().size()};
+    if (Context::current().several()) {
+      Buffer<std::uint32_t>& cell = Context::current().scratch<std::uint32_t>();
+      cell.reserve_and_resize(fluid.size());
+      for_each(fluid.all(), CellNumberPass{fluid_grid, frame_, fluid.x_list, cell});
+      Buffer<Index>& order = Context::current().scratch<Index>(5);
+      sort_keys(cell, order, 32);
+      rows.order = order;
+    }
+    level_lists_.build(of_fluid_rows, of_grain_rows, *grain_cells.levels, rows, fluid.size(), grains_near,
                        range_, fluid_near, fluid_cells, fluid_bits, grain_bits);
   } else {
     of_grain_rows.build(grains.owned().size(), fluid_cells, fluid_near, grain_bits);

@@ -69,11 +69,14 @@ struct CountCellPass {
 struct ListCellPass {
   CellGridView grid;
   Span<const std::uint32_t> cell;
-  Span<const Index> before;
+  Span<const Index> before, order;
   Span<Index> particle;
   BL_HD void operator()(Index c) const {
     const Index first = grid.start[grid.key_of(cell[c])];
-    for (Index k = before[c]; k < before[c + 1]; ++k) particle[k] = first + (k - before[c]);
+    for (Index k = before[c]; k < before[c + 1]; ++k) {
+      const Index place = first + (k - before[c]);
+      particle[k] = order ? order[place] : place;
+    }
   }
 };
 struct PickPass {
@@ -166,13 +169,13 @@ void move(Store& store, const Migrants& migrants, Buffer<Index>& kept, bool whol
   whole ? store.keep(kept) : store.reorder(kept);
 }
 
-void make_ghosts(Store& store, const CellGrid& grid) {
+void make_ghosts(Store& store, const CellGrid& grid, Span<const Index> order) {
   const Ownership& own = *grid.ownership();
   const Index cells = Index(own.sent_cells.size());
   Buffer<Index> count(cells), before, places, at_rank, begin(own.of_rank.size());
   for_each({0, cells}, CountCellPass{grid.view(), own.sent_cells, count});
   places.resize(exclusive_scan(count, before));
-  for_each({0, cells}, ListCellPass{grid.view(), own.sent_cells, before, places});
+  for_each({0, cells}, ListCellPass{grid.view(), own.sent_cells, before, order, places});
   at_rank.assign(own.of_rank);
   for_each({0, Index(begin.size())}, PickPass{before, at_rank, begin});
   store.make_ghosts(begin.to_host(), places);

@@ -57,8 +57,8 @@ void migrate_to_owners(Store& store, const CellGrid& grid, const Frame& frame, S
 }
 
 /// Copies of those particles of others that are in cells next to this rank's; they are then to be added to
-/// the grid. The store is sorted.
-void make_ghosts(Store& store, const CellGrid& grid);
+/// the grid. order: of the store by these cells; empty: it is sorted by them.
+void make_ghosts(Store& store, const CellGrid& grid, Span<const Index> order = {});
 
 /// Block in which each of a store's own particles is, as an array of files.
 template <class P>

@@ -7,20 +7,31 @@ namespace {
 
 struct AddLengthPass {
   VerletListView found;
+  ListOrder rows;
   Index from;
   Span<std::uint32_t> length;
-  BL_HD void operator()(Index i) const { length[from + i] += found.count[i]; }
+  BL_HD void operator()(Index i) const {
+    if (const Index row = rows.at(from + i); rows.has_row(row)) length[row] += found.count[i];
+  }
 };
 
-struct LengthPass {
+/// How many entries of each row have rows of their own.
+struct CountPass {
   VerletListView found;
-  Span<std::uint32_t> length;
-  BL_HD void operator()(Index i) const { length[i] = found.count[i]; }
+  ListOrder sources;
+  Index from;
+  Span<std::uint32_t> count;
+  BL_HD void operator()(Index i) const {
+    count[i] = sources.order ? 0 : found.count[i];
+    if (sources.order)
+      found.each(i, [&](std::uint64_t, Index j) { count[i] += sources.has_row(sources.at(from + j)); });
+  }
 };
 
-/// A place for each pair of a row.
+/// A place for each of these pairs.
 struct TurnPass {
   VerletListView found;
+  ListOrder rows, sources;
   Index from_i, from_j;
   Span<const std::uint32_t> before;  ///< pairs of the rows before
   Index at;                          ///< and of the lists before
@@ -29,8 +40,10 @@ struct TurnPass {
   BL_HD void operator()(Index i) const {
     Index place = at + before[i];
     found.each(i, [&](std::uint64_t, Index j) {
-      large[place] = from_j + j;
-      small[place++] = from_i + i;
+      const Index source = sources.at(from_j + j);
+      if (!sources.has_row(source)) return;
+      large[place] = source;
+      small[place++] = rows.at(from_i + i);
     });
   }
 };
@@ -50,15 +63,27 @@ struct AddTurnedPass {
 /// Appends the rows of one list to those of another.
 struct AppendPass {
   VerletListView found, list;
+  ListOrder rows, sources;
   Index from_i, from_j;
   Span<std::uint32_t> filled;
   Index* entry;
   BL_HD void operator()(Index i) const {
-    std::uint32_t k = filled[from_i + i];
-    found.each(i, [&](std::uint64_t, Index j) { entry[list.slot(from_i + i, k++)] = from_j + j; });
-    filled[from_i + i] = k;
+    const Index row = rows.at(from_i + i);
+    if (!rows.has_row(row)) return;
+    std::uint32_t k = filled[row];
+    found.each(i, [&](std::uint64_t, Index j) { entry[list.slot(row, k++)] = sources.at(from_j + j); });
+    filled[row] = k;
   }
 };
+
+void add_lengths(const LevelList& of, Buffer<std::uint32_t>& length) {
+  for_each({0, of.found.rows()}, AddLengthPass{of.found.view(), of.rows, of.from_i, length});
+}
+
+void append(const LevelList& of, Buffer<std::uint32_t>& filled, VerletList& list) {
+  for_each({0, of.found.rows()}, AppendPass{of.found.view(), list.view(), of.rows, of.sources, of.from_i,
+                                            of.from_j, filled, list.entries()});
+}
 
 struct AppendTurnedPass {
   Span<const std::uint32_t> large;
@@ -76,15 +101,16 @@ struct AppendTurnedPass {
 
 void TurnedPairs::clear() { large_.resize(0), small_.resize(0); }
 
-void TurnedPairs::add(const VerletList& found, Index from_i, Index from_j) {
+void TurnedPairs::add(const LevelList& list) {
+  const auto& [found, by, sources, from_i, from_j] = list;
   const Index pairs = Index(large_.size());
   const Range rows = {0, found.rows()};
   Buffer<std::uint32_t>& count = Context::current().scratch<std::uint32_t>();
   count.reserve_and_resize(found.rows());
-  for_each(rows, LengthPass{found.view(), count});
+  for_each(rows, CountPass{found.view(), sources, from_j, count});
   const Index more = exclusive_scan(count, before_);
   large_.grow(pairs + more), small_.grow(pairs + more);
-  for_each(rows, TurnPass{found.view(), from_i, from_j, before_, pairs, large_, small_});
+  for_each(rows, TurnPass{found.view(), by, sources, from_i, from_j, before_, pairs, large_, small_});
 }
 
 void TurnedPairs::sort(Index larger, Buffer<std::uint32_t>& length) {
@@ -102,58 +128,48 @@ void TurnedPairs::append(const Buffer<std::uint32_t>& filled, VerletList& list) 
 void LevelLists::turn_round(const SizeLevels& levels) {
   turned_.clear();
   for (int own = 1; own < levels.count(); ++own)
-    for (int other = 0; other < own; ++other)
-      turned_.add(found(own, other), levels.particles(own).begin, levels.particles(other).begin);
-  turned_.sort(levels.particles(levels.count() - 1).begin, length_);
+    for (int other = 0; other < own; ++other) turned_.add(of(levels, own, other));
+  turned_.sort(levels.order().larger, length_);
 }
 
 void LevelLists::join(VerletList& list, const SizeLevels& levels, unsigned bits) {
-  const Index particles = levels.particles(levels.count() - 1).end;
-  length_.resize(particles);
+  const Index rows = levels.order().own;
+  length_.resize(rows);
   length_.zero();
   for (int own = 0; own < levels.count(); ++own)
-    for (int other = 0; other <= own; ++other)
-      for_each({0, found(own, other).rows()},
-               AddLengthPass{found(own, other).view(), levels.particles(own).begin, length_});
+    for (int other = 0; other <= own; ++other) add_lengths(of(levels, own, other), length_);
   turn_round(levels);
   list.make_rows(length_, bits);
-  filled_.resize(particles);
+  filled_.resize(rows);
   filled_.zero();
   for (int own = 0; own < levels.count(); ++own)
-    for (int other = 0; other <= own; ++other)
-      for_each({0, found(own, other).rows()},
-               AppendPass{found(own, other).view(), list.view(), levels.particles(own).begin,
-                          levels.particles(other).begin, filled_, list.entries()});
+    for (int other = 0; other <= own; ++other) append(of(levels, own, other), filled_, list);
   turned_.append(filled_, list);
 }
 
 void CrossLevelLists::join(VerletList& of_rows, VerletList& of_sized, const SizeLevels& levels,
-                           unsigned row_bits, unsigned sized_bits) {
+                           const ListOrder& rows, unsigned row_bits, unsigned sized_bits) {
   const int count = levels.count();
-  const Index rows = found_[0].rows();
-  length_.resize(rows);
+  length_.resize(rows.own);
   length_.zero();
-  for (int l = 0; l < count; ++l) for_each({0, rows}, AddLengthPass{found_[l].view(), 0, length_});
+  for (int l = 0; l < count; ++l) add_lengths(of(levels, rows, l), length_);
   of_rows.make_rows(length_, row_bits);
-  filled_.resize(rows);
+  filled_.resize(rows.own);
   filled_.zero();
-  for (int l = 0; l < count; ++l)
-    for_each({0, rows}, AppendPass{found_[l].view(), of_rows.view(), 0, levels.particles(l).begin, filled_,
-                                   of_rows.entries()});
+  for (int l = 0; l < count; ++l) append(of(levels, rows, l), filled_, of_rows);
 
-  const auto [smallest, end] = levels.particles(count - 1);
-  length_.resize(end);
+  const ListOrder sized = levels.order();
+  length_.resize(sized.own);
   length_.zero();
-  for_each({0, of_smallest_.rows()}, AddLengthPass{of_smallest_.view(), smallest, length_});
+  add_lengths(of_smallest(levels), length_);
   turned_.clear();
-  for (int l = 0; l + 1 < count; ++l) turned_.add(found_[l], 0, levels.particles(l).begin);
-  turned_.sort(smallest, length_);
+  for (int l = 0; l + 1 < count; ++l) turned_.add(of(levels, rows, l));
+  turned_.sort(sized.larger, length_);
   of_sized.make_rows(length_, sized_bits);
-  filled_.resize(end);
+  filled_.resize(sized.own);
   filled_.zero();
   turned_.append(filled_, of_sized);
-  for_each({0, of_smallest_.rows()},
-           AppendPass{of_smallest_.view(), of_sized.view(), smallest, 0, filled_, of_sized.entries()});
+  append(of_smallest(levels), filled_, of_sized);
 }
 
 }  // namespace BL_SOLVER

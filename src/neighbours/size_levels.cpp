@@ -4,8 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
+
+#include "bedload/parallel/ranks.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -23,17 +24,22 @@ struct Bin {
   double count = 0;
 };
 
-/// From the largest to the smallest.
+/// From the largest to the smallest, of all ranks.
 std::vector<Bin> bins_of(const std::vector<Real>& radius, double largest) {
-  std::map<int, Bin> bins;
-  for (const Real r : radius) {
-    Bin& bin = bins[std::max(0, int(kBinsPerOctave * std::log2(largest / double(r))))];
-    bin.largest = std::max(bin.largest, double(r));
-    bin.count += 1;
-  }
-  std::vector<Bin> all;
-  for (const auto& [place, bin] : bins) all.push_back(bin);
-  return all;
+  const auto place = [&](Real r) {
+    return std::size_t(std::max(0.0, kBinsPerOctave * std::log2(largest / double(r))));
+  };
+  std::size_t count = 0;
+  for (const Real r : radius) count = std::max(count, place(r) + 1);
+  std::vector<Bin> bins(all_reduce(count, [](auto& into, auto more) { into = std::max(into, more); }));
+  const auto add = [](Bin& into, const Bin& more) {
+    into.largest = std::max(into.largest, more.largest);
+    into.count += more.count;
+  };
+  for (const Real r : radius) add(bins[place(r)], {double(r), 1});
+  all_reduce(bins, add);
+  std::erase_if(bins, [](const Bin& bin) { return bin.count == 0; });
+  return bins;
 }
 
 /// Which bins each level begins with: those for which lists cost least.
@@ -106,8 +112,22 @@ struct Borders {
 struct LevelPass {
   Borders borders;
   Span<const Real> radius;
+  Span<const Index> order;  ///< empty: as they are
   Span<std::uint32_t> level;
-  BL_HD void operator()(Index i) const { level[i] = borders.level_of(radius[i]); }
+  BL_HD void operator()(Index i) const { level[i] = borders.level_of(radius[order ? order[i] : i]); }
+};
+
+/// Numbers of the cells of a level.
+struct CellPass {
+  CellGridView grid;
+  std::uint32_t of;
+  Span<const Vec3d> x;
+  Span<const std::uint32_t> level;
+  Span<std::uint32_t> cell;
+  BL_HD void operator()(Index i) const {
+    if (level[i] != of) return;
+    cell[i] = grid.number(grid.coordinate(x[i].x, 0), grid.coordinate(x[i].y, 1), grid.coordinate(x[i].z, 2));
+  }
 };
 
 /// The first particle of each level.
@@ -161,13 +181,50 @@ void SizeLevels::unite() {
   largest_.assign(1, 0);
 }
 
-void SizeLevels::sort(Span<const Vec3d> x, Span<const Real> radius, Buffer<Index>& order) {
+namespace {
+
+Borders borders_of(const SizeLevels& levels) {
+  Borders borders{{}, levels.count()};
+  for (int l = 0; l < levels.count(); ++l) borders.largest[l] = levels.largest(l);
+  return borders;
+}
+
+}  // namespace
+
+void SizeLevels::sort(Span<const Vec3d> x, Span<const Real> radius, Buffer<Index>& order, Span<const Id> id) {
+  arrange(x, radius, order, id);
+  with_ghosts_.resize(0);
+  own_ = x.size, larger_ = begin_[count() - 1];
+}
+
+void SizeLevels::add_ghosts(Span<const Vec3d> x, Span<const Real> radius, Span<const Id> id) {
+  arrange(x, radius, with_ghosts_, id);
+}
+
+void SizeLevels::places(Span<const Vec3d> x, Span<const Real> radius, Buffer<std::uint32_t>& level,
+                        Buffer<std::uint32_t>& cell) const {
+  level.resize(x.size), cell.resize(x.size);
+  for_each({0, x.size}, LevelPass{borders_of(*this), radius, {}, level});
+  for (int l = 0; l < count(); ++l)
+    for_each({0, x.size}, CellPass{grid(l).view(), std::uint32_t(l), x, level, cell});
+}
+
+void SizeLevels::arrange(Span<const Vec3d> x, Span<const Real> radius, Buffer<Index>& order,
+                         Span<const Id> id) {
   Buffer<std::uint32_t>& level = Context::current().scratch<std::uint32_t>();
   level.reserve_and_resize(x.size);
-  Borders borders{{}, count()};
-  for (int l = 0; l < count(); ++l) borders.largest[l] = largest_[l];
-  for_each({0, x.size}, LevelPass{borders, radius, level});
+  Buffer<Index>& by_id = Context::current().scratch<Index>(3);
+  if (id) {
+    copy_on_device(level.data(), id.data, x.size * sizeof(Id));
+    sort_keys(level, by_id, 32);
+  }
+  for_each({0, x.size}, LevelPass{borders_of(*this), radius, id ? by_id.span() : Span<const Index>(), level});
   sort_keys(level, by_level_, 3);
+  if (id) {
+    in_level_.resize(x.size);
+    for_each({0, x.size}, ComposePass{by_id, by_level_, in_level_});
+    by_level_.swap(in_level_);
+  }
   begins_.resize(std::size_t(count()) + 1);
   for_each({0, Index(count()) + 1}, BeginPass{level, begins_});
   begin_ = begins_.to_host();

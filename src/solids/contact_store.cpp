@@ -60,21 +60,24 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains, const HostArray* 
   const std::vector<ContactLoss> loss =
       spectra_ ? spectra_->of_pairs().to_host() : std::vector<ContactLoss>{};
   std::vector<ContactLoss> kept_loss;
-  std::vector<std::uint32_t> block;
+  HostArray block{"block", "-", Scalar::u32, blocks ? blocks->components : 1, {}};
+  const std::size_t of_row = std::size_t(block.components) * sizeof(std::uint32_t);
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
       if (history[slot].overlap == 0 || id[i] > id[j]) return;  // both partners hold the same
       lo.push_back(id[i]), hi.push_back(id[j]);
       kept.push_back(history[slot]);
       if (spectra_) kept_loss.push_back(loss[slot]);
-      if (blocks) block.push_back(blocks->as<std::uint32_t>()[i]);
+      if (!blocks) return;
+      block.bytes.resize(kept.size() * of_row);
+      std::memcpy(block.bytes.data() + (kept.size() - 1) * of_row, blocks->bytes.data() + i * of_row, of_row);
     });
   HostStore out{
       "contacts",
       kept.size(),
       {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", ContactHistory::units(), kept)}};
   if (spectra_) out.arrays.push_back(to_array("loss", "J", kept_loss));
-  if (blocks) out.arrays.push_back(to_array("block", "-", block));
+  if (blocks) out.arrays.push_back(std::move(block));
   return out;
 }
 
@@ -82,8 +85,11 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   choose_levels(grains);
   sort(grains.x_list.span(), grains, grid);
   const std::vector<Index> order = order_.to_host();
-  if (!std::is_sorted(order.begin(), order.end()))
-    throw FileError("checkpoint: grains are not in the order in which this build keeps them");
+  if (!std::is_sorted(order.begin(), order.end())) {
+    if (!in_levels())
+      throw FileError("checkpoint: grains are not in the order in which this build keeps them");
+    grains.keep(order_);  // of a build that did not sort those of a cell by id
+  }
   grains.count();
   if (Context::current().several()) make_ghosts_of(grains, grid, grains.x_list);
   build_list(grains, grid);

@@ -1,6 +1,7 @@
 // The list of near grains when it is renewed; and which rank has which grains, with their contacts.
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "bedload/parallel/ranks.hpp"
@@ -31,6 +32,13 @@ struct ListedPlacesPass {
   Span<const Vec3d> x;
   Span<Vec3d> out;
   BL_HD void operator()(Index i) const { out[i] = frame.listed(x[i]); }
+};
+
+struct InOrderPass {
+  Span<const Index> order;
+  Span<const Vec3d> x;
+  Span<Vec3d> in_order;
+  BL_HD void operator()(Index k) const { in_order[k] = x[order[k]]; }
 };
 
 /// Composes the order of a sort with what was before it: former indices as of the last lists.
@@ -205,7 +213,7 @@ void SolidSolver::choose_levels(const GrainStore& grains) {
 }
 
 void SolidSolver::sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid) {
-  if (in_levels()) return levels_.sort(x, grains.radius.span(), order_);
+  if (in_levels()) return levels_.sort(x, grains.radius.span(), order_, grains.id);
   if (!frame_.shear.acts()) return grid.sort<Vec3d>(frame_, x, order_, grains.id);
   Buffer<Vec3d> places(x.size);
   for_each({0, x.size}, ListedPlacesPass{as_listed(), x, places});
@@ -234,7 +242,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
     level_lists_.build(list_, levels_, near, bits);
   else
     list_.build(grains.owned().size(), grid.view(), near, bits);
-  long_rows_.cut(list_, in_levels() ? levels_.particles(levels_.count() - 1).begin : 0);
+  long_rows_.cut(list_, in_levels() ? levels_.order().larger : 0);
   by_pieces_.reserve_and_resize(long_rows_.pieces());
   near.range = 0;
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
@@ -278,8 +286,39 @@ void SolidSolver::migrate(GrainStore& grains, CellGrid& grid, const Field<Vec3d>
 }
 
 void SolidSolver::make_ghosts_of(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x) {
-  make_ghosts(grains, grid);
-  grid.add_ghosts(frame_, x.span());
+  if (!in_levels()) {
+    make_ghosts(grains, grid);
+    return grid.add_ghosts(frame_, x.span());
+  }
+  grid.sort<Vec3d>(frame_, x.span(), by_cells_);
+  make_ghosts(grains, grid, by_cells_);
+  by_cells_.grow(grains.size());
+  for_each({grains.owned().end, grains.size()}, FillIndex{by_cells_});
+  Buffer<Vec3d>& places = Context::current().scratch<Vec3d>();
+  places.reserve_and_resize(grains.size());
+  for_each(grains.all(), InOrderPass{by_cells_, x, places});
+  grid.add_ghosts(frame_, Span<const Vec3d>(places.span()));
+  levels_.add_ghosts(x.span(), grains.radius, grains.id);
+}
+
+Span<const Index> SolidSolver::order_by_cells(const GrainStore& grains, CellGrid& grid) {
+  if (!Context::current().several()) grid.sort<Vec3d>(frame_, grains.x_list.span(), by_cells_);
+  return by_cells_;
+}
+
+HostArray SolidSolver::blocks(const GrainStore& grains, const CellGrid& grid) const {
+  if (!in_levels()) return blocks_of(grains, grid, frame_, grains.x_list.span());
+  const Index n = grains.owned().size();
+  Buffer<std::uint32_t> level, cell;
+  levels_.places({grains.x_list.span().data, n}, {grains.radius.span().data, n}, level, cell);
+  const std::vector<std::uint32_t> levels = level.to_host(), cells = cell.to_host();
+  const std::vector<Id> id = grains.id.values();
+  HostArray out{"block", "-", Scalar::u32, 3, HostBytes(n * 3 * sizeof(std::uint32_t))};
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t place[] = {levels[i], cells[i], id[i]};
+    std::memcpy(out.bytes.data() + i * sizeof place, place, sizeof place);
+  }
+  return out;
 }
 
 void SolidSolver::share_motion(GrainStore& grains) {

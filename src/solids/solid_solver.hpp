@@ -101,6 +101,10 @@ class SolidSolver {
   const VerletList& list() const { return list_; }
   bool in_levels() const { return levels_.count() > 1; }
   const SizeLevels& levels() const { return levels_; }
+  /// Of grains in levels: their order by the cells of `grid`, where they were listed, ghosts too.
+  Span<const Index> order_by_cells(const GrainStore& grains, CellGrid& grid);
+  /// What puts the grains of all ranks into one order, as an array "block".
+  HostArray blocks(const GrainStore& grains, const CellGrid& grid) const;
   /// Number of grains near walls.
   Index near_walls() const { return wall_list_.size(); }
 
@@ -134,7 +138,8 @@ class SolidSolver {
                Span<const Real3> drive = {});
 
   ParticleBytes scratch_bytes() const {
-    const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
+    const std::size_t orders = Context::current().several() ? 3 : 1;
+    const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : orders * sizeof(Index);
     const double more = cube(range() / (parameters_.d_max + skin()));  // entries, by what does not touch
     return {.grains = of_grains_.entry_bytes() + clumps_.scratch_bytes() +
                       (books_ ? EnergyBooks::kScratch : 0) +
@@ -187,7 +192,7 @@ class SolidSolver {
   GrainActions actions(const GrainStore& grains, Span<const BodyPose> poses) const;
 
   /// Histories of pairs in contact: arrays "lo", "hi" (ids) and "history"; blocks: of each grain, for an
-  /// array "block" with that of the lower one. Both are null where there is one rank.
+  /// array "block" with that of the lower one; null where there is one rank.
   HostStore save_contacts(const GrainStore& grains, const HostArray* blocks = nullptr) const;
   /// After `grains` has been loaded: rebuilds the lists as they were at the last refresh and restores the
   /// histories, to the last bit. Throws FileError.
@@ -332,6 +337,7 @@ class SolidSolver {
   Buffer<ContactSum> by_walls_;            ///< [rows of wall_list_]
   Buffer<ContactSum> by_pieces_;           ///< [pieces of long_rows_]
   Buffer<Index> order_;
+  Buffer<Index> by_cells_;  ///< of grains in levels
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};
   ScratchArray<GrainRelaxation> relaxation_{of_grains_, wet_};  ///< of advance

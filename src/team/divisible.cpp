@@ -15,8 +15,6 @@ void refuse_undivided(const Config& c) {
   };
   if (!c.fluid.present && !c.grain.present) refuse("fluid", "a case without fluid and grains");
   if (c.fluid.present && c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
-  if (c.grain.present && c.grain.largest() >= 2 * c.grain.smallest())
-    refuse("grain", "grains of which the largest are twice as wide as the smallest");
 }
 
 }  // namespace bedload

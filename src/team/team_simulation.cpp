@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -144,23 +145,34 @@ HostStore joined(std::vector<HostStore> parts) {
   HostStore out{first.name, 0, {}};
   out.lines = first.lines;
   for (const HostStore& part : parts) out.count += part.count;
-  /// Entries of a rank in one block.
+  /// Entries of a rank that follow one another.
   struct Run {
     std::size_t rank, from, to, count;
   };
   std::vector<Run> runs;
   std::vector<std::size_t> at(parts.size(), 0);
+  const auto components = std::size_t(first.find("block")->components);
+  const auto block = [&](std::size_t rank, std::size_t entry) {
+    return std::span(parts[rank].find("block")->as<std::uint32_t>() + entry * components, components);
+  };
+  const auto before = [&](std::size_t a, std::size_t b) {  // of what comes next from two ranks
+    const auto of_a = block(a, at[a]), of_b = block(b, at[b]);
+    return std::lexicographical_compare(of_a.begin(), of_a.end(), of_b.begin(), of_b.end());
+  };
   for (std::size_t done = 0; done < out.count;) {
-    std::size_t next = parts.size();  // the rank that has the next block
-    const auto block = [&](std::size_t rank) {
-      return parts[rank].find("block")->as<std::uint32_t>() + at[rank];
-    };
-    for (std::size_t r = 0; r < parts.size(); ++r)
-      if (at[r] < parts[r].count && (next == parts.size() || *block(r) < *block(next))) next = r;
-    const std::uint32_t *const begin = block(next), *const end = begin + (parts[next].count - at[next]);
-    const auto count = std::size_t(std::find_if(begin, end, [&](auto b) { return b != *begin; }) - begin);
-    runs.push_back({next, at[next], done, count});
-    at[next] += count, done += count;
+    std::size_t next = parts.size(), second = parts.size();  // ranks that come next
+    for (std::size_t r = 0; r < parts.size(); ++r) {
+      if (at[r] == parts[r].count) continue;
+      if (next == parts.size() || before(r, next))
+        second = next, next = r;
+      else if (second == parts.size() || before(r, second))
+        second = r;
+    }
+    const std::size_t from = at[next];
+    do ++at[next];
+    while (at[next] < parts[next].count && (second == parts.size() || !before(second, next)));
+    runs.push_back({next, from, done, at[next] - from});
+    done += at[next] - from;
   }
   for (std::size_t k = 0; k < first.arrays.size(); ++k) {
     const HostArray& a = first.arrays[k];

@@ -20,8 +20,9 @@ struct TeamOptions {
 
 std::unique_ptr<Simulation> make_team(const TeamOptions& options);
 
-/// The entries of all ranks in the order in which one rank would have them: by the array "block", which it
-/// drops, and within a block as its owner has them. Without such an array, those of the first.
+/// The entries of all ranks in the order in which one rank would have them: by the numbers of the array
+/// "block", which it drops, and where these are equal as their owner has them. Without such an array, those
+/// of the first.
 HostStore joined(std::vector<HostStore> parts);
 /// The same of all stores; scalars are those of the first.
 SavedState joined(std::vector<SavedState> parts);

@@ -350,16 +350,14 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
   ++rebuilds_;
 }
 
-HostArray Stepper::blocks_of_grains() const {
-  return blocks_of(grains_, grain_grid_, frame_, Span<const Vec3d>(grains_.x_list));
-}
+HostArray Stepper::blocks_of_grains() const { return solid_solver_->blocks(grains_, grain_grid_); }
 
 void Stepper::relist_coupling() {
   const bool in_levels = solid_solver_->in_levels();
-  if (in_levels) grain_grid_.sort<Vec3d>(frame_, grains_.x_list.span(), grain_order_);
+  const Span<const Index> order =
+      in_levels ? solid_solver_->order_by_cells(grains_, grain_grid_) : Span<const Index>();
   coupling_->rebuild_lists(fluid_, fluid_solver_->grid().view(), fluid_solver_->half_skins(fluid_), grains_,
-                           {grain_grid_.view(), in_levels ? grain_order_.span() : Span<const Index>(),
-                            in_levels ? &solid_solver_->levels() : nullptr},
+                           {grain_grid_.view(), order, in_levels ? &solid_solver_->levels() : nullptr},
                            solid_solver_->skin() / 2, motion_.moves() ? Span<const BodyPose>() : poses_now());
 }
 

@@ -141,7 +141,6 @@ class Stepper {
   Scratch of_walls_, of_grains_;
   ScratchArray<Real3> grain_drive_{of_grains_, config_.drive.on_grains()};  ///< N
   CellGrid grain_grid_;
-  Buffer<Index> grain_order_;  ///< of grains in levels, by its cells
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;
   std::unique_ptr<Coupling> coupling_;
