@@ -50,6 +50,17 @@ struct OpenLosses {
   ContactLoss* of_pairs = nullptr;  ///< [slots], the same in the rows of both grains
   WallLosses* at_walls = nullptr;   ///< [grains]
   BL_HD explicit operator bool() const { return spectra.bins; }
+
+  BL_HD std::uint32_t kind(const GrainView& g, Index i) const {
+    return spectra.kind(g.mass_per_r3.material_of(i), g.radius[i]);
+  }
+  /// A contact of two grains, or of one and a wall body, that has ended.
+  BL_HD void enter(const GrainView& g, Index i, Index j, const ContactLoss& loss) const {
+    spectra.enter(spectra.of_pair(kind(g, i), kind(g, j)), loss);
+  }
+  BL_HD void enter_at_wall(const GrainView& g, Index i, std::uint32_t body, const ContactLoss& loss) const {
+    spectra.enter(spectra.on_wall(body, kind(g, i)), loss);
+  }
 };
 
 /// J: dissipated in contacts, work on the grains.
@@ -135,9 +146,7 @@ struct PairFlow : FlowReduction {
     ContactLoss& loss = losses.of_pairs[slot];
     if (!touched) loss = {};
     flow.add_to(loss);
-    if (!touches && counts)
-      losses.spectra.enter(losses.spectra.of_pair(g.mass_per_r3.material_of(i), g.mass_per_r3.material_of(j)),
-                           loss);
+    if (!touches && counts) losses.enter(g, i, j, loss);
   }
 };
 
@@ -176,7 +185,7 @@ struct WallFlow : FlowReduction {
       one.add_to(here);
       const Real3 slip = v - dot(v, c.n) * c.n - cross(c.arm * g.omega[i], c.n);
       const double force = 0.5 * (norm(c.before.normal) + norm(c.after.normal));
-      wear.add(c.body, pose, contacts.arm(pose, c.point), force * norm(slip) * dt, here);
+      wear.add(c.body, pose, contacts.arm(pose, c.point), force * norm(slip) * dt, c.ended ? 0 : dt, here);
     };
     const auto memory_energy = [&](Index k) {
       return contacts.law(body_of(memories[k]), i).energy(own.R, own.m, memories[k].history);
@@ -220,9 +229,10 @@ struct WallFlow : FlowReduction {
              .before = action(k, i),
              .after = {},
              .had = memory_energy(k),
-             .has = {}},
+             .has = {},
+             .ended = true},
             loss);
-      if (losses) losses.spectra.enter(losses.spectra.on_wall(body, g.mass_per_r3.material_of(i)), loss);
+      if (losses) losses.enter_at_wall(g, i, body, loss);
     }
     for (int k = 0; k < n; ++k) {
       action(Index(k), i) = now[k];
@@ -240,6 +250,7 @@ struct WallFlow : FlowReduction {
     Real arm;
     ContactAction before, after;
     StoredEnergy had, has;
+    bool ended = false;
   };
   BL_HD std::uint32_t body_of(const WallMemory& memory) const {
     return contacts.walls.surfaces[memory.surface()].body;

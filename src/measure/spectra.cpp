@@ -16,15 +16,17 @@ struct ContactClass {
 
 std::vector<ContactClass> classes_of(const Config& c, const ContactSpectra& layout) {
   std::vector<ContactClass> out;
-  const std::vector<GrainMaterial> materials = c.grain.all_materials();
-  for (std::uint32_t a = 0; a < materials.size(); ++a)
-    for (std::uint32_t b = a; b < materials.size(); ++b)
-      out.push_back({name_in_pairs(materials[a]) + "_" + name_in_pairs(materials[b]), layout.of_pair(a, b)});
+  std::vector<std::string> kinds;
+  for (const GrainMaterial& m : c.grain.all_materials())
+    for (std::uint32_t size = 0; size < layout.sizes; ++size)
+      kinds.push_back(name_in_pairs(m) + (layout.sizes > 1 ? "_" + std::to_string(size) : ""));
+  for (std::uint32_t a = 0; a < kinds.size(); ++a)
+    for (std::uint32_t b = a; b < kinds.size(); ++b)
+      out.push_back({kinds[a] + "_" + kinds[b], layout.of_pair(a, b)});
   for (std::uint32_t body = 0; body < c.wall.bodies.size(); ++body)
-    for (std::uint32_t m = 0; m < materials.size(); ++m)
+    for (std::uint32_t kind = 0; kind < kinds.size(); ++kind)
       if (c.wall.bodies[body].stops_grains())
-        out.push_back(
-            {name_in_pairs(materials[m]) + "_on_" + c.wall.bodies[body].name, layout.on_wall(body, m)});
+        out.push_back({kinds[kind] + "_on_" + c.wall.bodies[body].name, layout.on_wall(body, kind)});
   return out;
 }
 

@@ -214,6 +214,7 @@ at = [-0.02, 0, -0.03]
 span = [[0.04, 0, 0], [0, 0, 0.03]]
 count = [4, 3]
 radius = 0.011
+sample_every = 0.002
 [[probe]]
 name = "flux"
 type = "flux"
@@ -364,8 +365,8 @@ std::vector<RankCase> rank_cases() {
       {"inlet and outlet", kDuct, {}, 120},
       {"drum of grains",
        kDrum + kMixed,
-       {"out.spectra=true", "out.contacts=touching", "wall.body.0.wear=archard",
-        "wall.body.0.k_over_H=1e-13"},
+       {"out.spectra=true", "out.contacts=touching", "out.fields=[\"contact_stress\"]",
+        "wall.body.0.wear=archard", "wall.body.0.k_over_H=1e-13"},
        100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
       {"drifting bed", drifting_bed(), {"out.spectra=true", "out.contacts=touching"}, 60},
