@@ -5,6 +5,7 @@
 // What it does not store it has dissipated: D = - W - (U - U'). The leapfrog changes kinetic energies by W,
 // but for terms that cancel from one substep to the next.
 
+#include "kernels/bodies/clumps.hpp"
 #include "kernels/contact/contact_loss.hpp"
 #include "kernels/contact/wall_pass.hpp"
 #include "kernels/contact/wear.hpp"
@@ -267,7 +268,7 @@ struct GrainCourse {
 };
 
 /// Work of gravity and of the fluid since the last look: of what is constant between two kicks with the
-/// velocity there, of drag with the mean of those before and after.
+/// velocity there, of drag with the mean of those before and after. That of gravity on clumps: ClumpFlow.
 struct KickFlow : FlowReduction {
   GrainView grains;
   Vec3d gravity;  ///< mean over the substep, m/s2
@@ -276,11 +277,12 @@ struct KickFlow : FlowReduction {
   Span<const Real3> impulse, angular_impulse;  ///< of drag in this advance so far; empty without fluid
   GrainCourse* course;                         ///< [grains]; null without fluid
   bool begins = false;                         ///< notes how an advance starts
+  Span<const std::uint32_t> clump = {};        ///< of each grain, 0: none; empty without
 
   BL_HD Value operator()(Index i) const {
     Value flow = Value::zero();
     const Vec3d v(grains.v[i]), omega(grains.omega[i]);
-    flow.of[EnergyFlow::gravity] = dt * grains.mass(i) * dot(gravity, v);
+    if (!clump || clump[i] == 0) flow.of[EnergyFlow::gravity] = dt * grains.mass(i) * dot(gravity, v);
     Vec3d force;
     if (fluid_force) force += Vec3d(fluid_force[i]);
     if (drive) force += Vec3d(drive[i]);
@@ -295,6 +297,20 @@ struct KickFlow : FlowReduction {
                  dot(Vec3d(now.angular_impulse - was.angular_impulse), omega + Vec3d(was.omega)));
     }
     course[i] = now;
+    return flow;
+  }
+};
+
+/// Work of gravity on clumps in a substep: at the centre of mass, which is not that of the masses of their
+/// grains.
+struct ClumpFlow : FlowReduction {
+  ClumpView clumps;
+  Vec3d gravity;  ///< mean over the substep, m/s2
+  double dt;      ///< s
+
+  BL_HD Value operator()(Index c) const {
+    Value flow = Value::zero();
+    flow.of[EnergyFlow::gravity] = dt * clumps.mass(c) * dot(gravity, clumps.v[c]);
     return flow;
   }
 };

@@ -155,7 +155,6 @@ void Checks::grain_energy() const {
         {c.grain.fixed, "with grain.fixed"},
         {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
          "with inlets or outlets of grains, whose energies are not counted"},
-        {c.grain.has_clumps(), "with clumps, of which it counts the spheres"},
         {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
     if (!there) continue;
     for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})

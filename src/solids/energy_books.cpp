@@ -69,6 +69,9 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
                                                    wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   books_->count(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
+  if (clumps_.any() && dt > 0)  // every rank has all of them
+    books_->count(Context::current().rank() == 0 ? clumps_.store().owned() : Range{},
+                  ClumpFlow{{}, clumps_.view(), gravity, dt});
 }
 
 void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick) {
@@ -87,7 +90,8 @@ KickFlow SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick&
           g.impulse.span(),
           g.spin_impulse.span(),
           books_->course(),
-          begins};
+          begins,
+          clumps_.of_grains()};
 }
 
 }  // namespace BL_SOLVER

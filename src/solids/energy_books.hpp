@@ -53,7 +53,7 @@ class EnergyBooks {
 
  private:
   std::array<double, EnergyFlow::kTerms> most_;
-  static constexpr int kPasses = 3;  ///< of a substep: pairs, walls, kicks
+  static constexpr int kPasses = 4;  ///< of a substep: pairs, walls, kicks, clumps
   bool begun_ = false;
   double start_ = 0;  ///< J
   EnergyFlow sum_ = EnergyFlow::zero();

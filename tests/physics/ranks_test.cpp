@@ -376,7 +376,7 @@ std::vector<RankCase> rank_cases() {
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
       {"grains in fluid that do not act on it", kTank + kFluid + kSingle, {"couple.mode=off"}, 40},
       {"slurry", kDam + kSlurry, {}, 60},
-      {"bed with a rigid group", test::kBed + kGate, {}, 30},
+      {"bed with a rigid group", test::kBed + kGate, {"out.energy=true"}, 30},
       {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
       {"slurry, one way, mirrored walls", kDam + kSlurry, {"couple.mode=one_way", "wall.type=mdbc"}, 30},
       {"slurry with a float", kTank + kFluid + kSingle + test::kFloat, {}, 30},
