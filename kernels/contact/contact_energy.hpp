@@ -5,6 +5,7 @@
 // What it does not store it has dissipated: D = - W - (U - U'). The leapfrog changes kinetic energies by W,
 // but for terms that cancel from one substep to the next.
 
+#include "kernels/bodies/clumps.hpp"
 #include "kernels/contact/contact_loss.hpp"
 #include "kernels/contact/wall_pass.hpp"
 #include "kernels/contact/wear.hpp"
@@ -50,6 +51,17 @@ struct OpenLosses {
   ContactLoss* of_pairs = nullptr;  ///< [slots], the same in the rows of both grains
   WallLosses* at_walls = nullptr;   ///< [grains]
   BL_HD explicit operator bool() const { return spectra.bins; }
+
+  BL_HD std::uint32_t kind(const GrainView& g, Index i) const {
+    return spectra.kind(g.mass_per_r3.material_of(i), g.radius[i]);
+  }
+  /// A contact of two grains, or of one and a wall body, that has ended.
+  BL_HD void enter(const GrainView& g, Index i, Index j, const ContactLoss& loss) const {
+    spectra.enter(spectra.of_pair(kind(g, i), kind(g, j)), loss);
+  }
+  BL_HD void enter_at_wall(const GrainView& g, Index i, std::uint32_t body, const ContactLoss& loss) const {
+    spectra.enter(spectra.on_wall(body, kind(g, i)), loss);
+  }
 };
 
 /// J: dissipated in contacts, work on the grains.
@@ -136,9 +148,7 @@ struct PairFlowPass {
     ContactLoss& loss = losses.of_pairs[slot];
     if (!pair.touched) loss = {};
     flow.add_to(loss);
-    if (!pair.acts && counts)
-      losses.spectra.enter(losses.spectra.of_pair(g.mass_per_r3.material_of(i), g.mass_per_r3.material_of(j)),
-                           loss);
+    if (!pair.acts && counts) losses.enter(g, i, j, loss);
   }
 };
 
@@ -178,7 +188,7 @@ struct WallFlowPass {
       one.add_to(here);
       const Real3 slip = v - dot(v, c.n) * c.n - cross(c.arm * g.omega[i], c.n);
       const double force = 0.5 * (norm(c.before.normal) + norm(c.after.normal));
-      wear.add(c.body, pose, contacts.arm(pose, c.point), force * norm(slip) * dt, here);
+      wear.add(c.body, pose, contacts.arm(pose, c.point), force * norm(slip) * dt, c.ended ? 0 : dt, here);
     };
     const auto memory_energy = [&](Index k) {
       return contacts.law(body_of(memories[k]), i).energy(own.R, own.m, memories[k].history);
@@ -222,9 +232,10 @@ struct WallFlowPass {
              .before = action(k, i),
              .after = {},
              .had = memory_energy(k),
-             .has = {}},
+             .has = {},
+             .ended = true},
             loss);
-      if (losses) losses.spectra.enter(losses.spectra.on_wall(body, g.mass_per_r3.material_of(i)), loss);
+      if (losses) losses.enter_at_wall(g, i, body, loss);
     }
     for (int k = 0; k < n; ++k) {
       action(Index(k), i) = now[k];
@@ -242,6 +253,7 @@ struct WallFlowPass {
     Real arm;
     ContactAction before, after;
     StoredEnergy had, has;
+    bool ended = false;
   };
   BL_HD std::uint32_t body_of(const WallMemory& memory) const {
     return contacts.walls.surfaces[memory.surface()].body;
@@ -258,7 +270,7 @@ struct GrainCourse {
 };
 
 /// Work of gravity and of the fluid since the last look: of what is constant between two kicks with the
-/// velocity there, of drag with the mean of those before and after.
+/// velocity there, of drag with the mean of those before and after. That of gravity on clumps: ClumpFlowPass.
 struct KickFlowPass {
   GrainView grains;
   Vec3d gravity;  ///< mean over the substep, m/s2
@@ -268,11 +280,12 @@ struct KickFlowPass {
   GrainCourse* course;                         ///< [grains]; null without fluid
   EnergyFlow* flows;                           ///< [grains]
   bool begins = false;                         ///< notes how an advance starts
+  Span<const std::uint32_t> clump = {};        ///< of each grain, 0: none; empty without
 
   BL_HD void operator()(Index i) const {
     EnergyFlow flow = EnergyFlow::zero();
     const Vec3d v(grains.v[i]), omega(grains.omega[i]);
-    flow.of[EnergyFlow::gravity] = dt * grains.mass(i) * dot(gravity, v);
+    if (!clump || clump[i] == 0) flow.of[EnergyFlow::gravity] = dt * grains.mass(i) * dot(gravity, v);
     Vec3d force;
     if (fluid_force) force += Vec3d(fluid_force[i]);
     if (drive) force += Vec3d(drive[i]);
@@ -292,6 +305,19 @@ struct KickFlowPass {
                  dot(Vec3d(now.angular_impulse - was.angular_impulse), omega + Vec3d(was.omega)));
     }
     course[i] = now;
+  }
+};
+
+/// Work of gravity on clumps in a substep: at the centre of mass, which is not that of the masses of their
+/// grains.
+struct ClumpFlowPass {
+  ClumpView clumps;
+  Vec3d gravity;      ///< mean over the substep, m/s2
+  double dt;          ///< s
+  EnergyFlow* flows;  ///< [clumps]
+
+  BL_HD void operator()(Index c) const {
+    flows[c].of[EnergyFlow::gravity] += dt * clumps.mass(c) * dot(gravity, clumps.v[c]);
   }
 };
 

@@ -55,23 +55,30 @@ struct FileType<SpectrumBin> {
   static constexpr int components = 3;
 };
 
-/// Bins over the logarithm of the energy, by class of contact and kind of loss. Integers, so that the order
-/// in which contacts enter does not matter.
+/// Bins over the logarithm of the energy, by class of contact and kind of loss: by the kinds of both grains,
+/// or that of one and the wall body. Integers, so that the order in which contacts enter does not matter.
 struct ContactSpectra {
-  static constexpr int kKinds = 2, kDecades = 14;
+  static constexpr int kKinds = 2, kDecades = 14, kMostSizes = 8;
 
   SpectrumBin* bins = nullptr;  ///< [class][kind][size()]
   double from = 0;              ///< lower edge of the first bin, J; it has what is less, too
   int per_decade = 0;
-  std::uint32_t materials = 1;
+  std::uint32_t materials = 1, sizes = 1;
+  Real least[kMostSizes - 1] = {};  ///< radius of each class of sizes but the first, m
 
   BL_HD int size() const { return kDecades * per_decade; }
-  BL_HD double unit() const { return 1e-3 * from; }  ///< of energies in bins, J
-  BL_HD std::uint32_t of_pair(std::uint32_t a, std::uint32_t b) const {
-    return a < b ? a * materials + b : b * materials + a;
+  BL_HD double unit() const { return 1e-3 * from; }                 ///< of energies in bins, J
+  BL_HD std::uint32_t grains() const { return materials * sizes; }  ///< number of kinds
+  BL_HD std::uint32_t kind(std::uint32_t material, Real radius) const {
+    std::uint32_t size = 0;
+    while (size + 1 < sizes && radius >= least[size]) ++size;
+    return material * sizes + size;
   }
-  BL_HD std::uint32_t on_wall(std::uint32_t body, std::uint32_t material) const {
-    return (materials + body) * materials + material;
+  BL_HD std::uint32_t of_pair(std::uint32_t a, std::uint32_t b) const {
+    return a < b ? a * grains() + b : b * grains() + a;
+  }
+  BL_HD std::uint32_t on_wall(std::uint32_t body, std::uint32_t kind) const {
+    return (grains() + body) * grains() + kind;
   }
   BL_HD void enter(std::uint32_t of, const ContactLoss& loss) const {
     SpectrumBin* const first = bins + std::size_t(of) * kKinds * std::size_t(size());

@@ -11,7 +11,10 @@ struct WearSums {
   WideSum path;    ///< normal force times the path that grains slide
   WideSum normal;  ///< dissipated by normal force
   WideSum shear;   ///< by sliding and rolling
-  void add(const WearSums& other) { path.add(other.path), normal.add(other.normal), shear.add(other.shear); }
+  WideSum time;    ///< of contact
+  void add(const WearSums& other) {
+    path.add(other.path), normal.add(other.normal), shear.add(other.shear), time.add(other.time);
+  }
 };
 template <>
 struct FileType<WearSums> {
@@ -44,12 +47,13 @@ struct WearMap {
 };
 
 struct WallWear {
-  const WearMap* maps = nullptr;  ///< [bodies]; null: none of them wears
-  double unit = 0;                ///< J
+  static constexpr double kTime = 1e-15;  ///< unit of times, s
+  const WearMap* maps = nullptr;          ///< [bodies]; null: none of them wears
+  double unit = 0;                        ///< J
   BL_HD explicit operator bool() const { return maps; }
 
-  /// r: from the body's centre to the contact, m; path: normal force times path, J.
-  BL_HD void add(std::uint32_t body, const BodyPose& pose, const Vec3d& r, double path,
+  /// r: from the body's centre to the contact, m; path: normal force times path, J; time: of contact, s.
+  BL_HD void add(std::uint32_t body, const BodyPose& pose, const Vec3d& r, double path, double time,
                  const ContactLoss& loss) const {
     const WearMap& map = maps[body];
     if (!map.sums) return;
@@ -58,6 +62,7 @@ struct WallWear {
     at.path.add(whole(path / unit));
     at.normal.add(whole(loss.normal / unit));
     at.shear.add(whole(loss.tangential / unit));
+    at.time.add(whole(time / kTime));
   }
 };
 

@@ -118,6 +118,30 @@ struct GrainActions {
   }
 };
 
+/// Mean stress in a grain by what acts on it, Pa: row k has component k of the force; tension is positive.
+struct GrainStress {
+  Real of[9];
+};
+template <>
+struct FileType<GrainStress> {
+  static constexpr Scalar scalar = FileType<Real>::scalar;
+  static constexpr int components = 9;
+};
+struct GrainStressPass {
+  GrainActions actions;
+  VolumePerR3 volume_per_r3;
+  Span<GrainStress> out;
+
+  BL_HD void operator()(Index i) const {
+    double moment[9] = {};
+    actions.each(i, [&](const Vec3d& force, const Vec3d& way, bool) {
+      for (int k = 0; k < 9; ++k) moment[k] += force[k / 3] * way[k % 3];
+    });
+    const double volume = volume_per_r3(i) * cube(double(actions.contacts.grains.radius[i]));
+    for (int k = 0; k < 9; ++k) out[i].of[k] = Real(moment[k] / volume);
+  }
+};
+
 /// Sums at a point, per m3 of kernel: volume, mass, momentum 3, momentum times velocity 6 and volume times
 /// fabric 6 (xx, xy, xz, yy, yz, zz), force times the way to where it acts 9.
 struct CoarseTerms {

@@ -79,6 +79,9 @@ void Checks::mixing(const std::string& path, const ProbeConfig& probe) const {
 
 void Checks::field(const std::string& path, const ProbeConfig& probe) const {
   if (!c.grain.present) return;
+  if (probe.sample_every > probe.every * (1 + 1e-9))
+    fail(path + ".sample_every", fmt::format("{} s", probe.sample_every),
+         fmt::format("must be <= {} s, the interval of its rows", probe.every));
   const auto refuse = [&](bool there, const char* what) {
     if (there) fail(path + ".type", quoted(probe.type.name()), fmt::format("must be another with {}", what));
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -154,7 +155,6 @@ void Checks::grain_energy() const {
         {c.grain.fixed, "with grain.fixed"},
         {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
          "with inlets or outlets of grains, whose energies are not counted"},
-        {c.grain.has_clumps(), "with clumps, of which it counts the spheres"},
         {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
     if (!there) continue;
     for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})
@@ -164,6 +164,13 @@ void Checks::grain_energy() const {
         fail(fmt::format("wall.body.{}.wear", b), '"' + c.wall.bodies[b].wear.name() + '"',
              fmt::format("must be \"none\" {}", what));
   }
+  constexpr std::size_t kMostSizes = 8;  // as in ContactSpectra
+  if (const std::vector<double>& sizes = c.out.spectra_sizes;
+      c.out.spectra &&
+      (sizes.size() >= kMostSizes ||
+       std::adjacent_find(sizes.begin(), sizes.end(), std::greater_equal<>()) != sizes.end()))
+    fail("out.spectra_sizes", fmt::format("[{}]", fmt::join(sizes, ", ")),
+         fmt::format("must be up to {} diameters in rising order", kMostSizes - 1));
   for (std::size_t b = 0; b < c.wall.bodies.size(); ++b) {
     const WallBody& body = c.wall.bodies[b];
     if (body.wear == WearLaw::none) continue;

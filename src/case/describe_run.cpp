@@ -88,6 +88,13 @@ void probe(Parameters& p, ProbeConfig& b) {
        .meaning = "field: radius of the kernel by which grains count at a point",
        .range = above(0),
        .presence = required});
+  if (wanted(field))
+    p("sample_every", &b.sample_every,
+      {.unit = "s",
+       .meaning = "field: rows are means over instants this far apart since the row before",
+       .range = above(0),
+       .fallback = "a row is of one instant",
+       .presence = optional});
   if (b.type == height && !p.everything())
     p("along", &b.along, {.meaning = "height: direction of the line", .fallback = "upwards"});
   if (wanted(box) || wanted(flux) || wanted(mixing)) {
@@ -324,7 +331,9 @@ void describe_output(Parameters& p, OutputConfig& o) {
      .presence = optional});
   p("out.walls", &o.walls, {.meaning = "frames of the wall particles are written, too"});
   p("out.fields", &o.fields,
-    {.meaning = "fields in frames, such as \"velocity\"; position, id, radius and body are always written",
+    {.meaning =
+         "fields in frames, such as \"velocity\"; position, id, radius and body are always written; of "
+         "grains also \"contact_stress\", which is written only if it is named",
      .fallback = "all",
      .presence = optional});
   p("out.energy", &o.energy,
@@ -334,7 +343,7 @@ void describe_output(Parameters& p, OutputConfig& o) {
   p("out.spectra", &o.spectra,
     {.meaning =
          "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
-         "materials; with the columns of out.energy"});
+         "materials and sizes; with the columns of out.energy"});
   if (o.spectra || p.everything()) {
     p("out.spectra_bins", &o.spectra_bins,
       {.meaning = "bins of the spectra a decade", .range = within(5, 50)});
@@ -343,6 +352,12 @@ void describe_output(Parameters& p, OutputConfig& o) {
        .meaning =
            "lower edge of the first bin, which has all lower energies too; the last ends 14 decades above",
        .range = within(1e-30, 1)});
+    p("out.spectra_sizes", &o.spectra_sizes,
+      {.unit = "m",
+       .meaning = "diameters between classes of sizes, each with spectra of its own; in rising order",
+       .range = above(0),
+       .fallback = "one class",
+       .presence = optional});
   }
   p("out.contacts", &o.contacts,
     {.meaning = "frames contacts.vtkhdf of single contacts of grains, with their forces",

@@ -24,7 +24,9 @@
 namespace bedload {
 namespace {
 
-constexpr double kRandomLimit = 0.30;              // random sequential places run out near 0.38
+constexpr double kRandomLimit = 0.30;              // above it grains that fit a lattice go there
+constexpr double kRandomMost = 0.38;               // where random sequential places run out
+constexpr double kFits = 4;                        // ratio of sizes from which fine grains fill voids
 constexpr std::uint64_t kOrientations = 1u << 20;  // stream of random numbers of the first clump
 constexpr int kTries = 20000;                      // per grain, before the lattice takes over
 constexpr std::size_t kAtOnce = 1u << 16;          // places tried at once, at most
@@ -66,7 +68,9 @@ class Packer {
     shuffle(radii, random);
     check_box();
     const double solid = std::transform_reduce(radii.begin(), radii.end(), 0.0, std::plus<>{}, sphere_volume);
-    auto places = solid < kRandomLimit * volume() ? random_places(radii, random) : std::nullopt;
+    const bool dense = solid >= kRandomLimit * volume();
+    const bool tries = !dense || (solid < most_at_random(radii) * volume() && !fit_lattice(radii));
+    auto places = tries ? random_places(radii, random) : std::nullopt;
     if (!places) places = lattice_places(radii, random);
     for (std::size_t n = 0; n < count; ++n) add((*places)[n], radii[n]);
   }
@@ -113,6 +117,18 @@ class Packer {
     std::vector<double> radii = diameters(sizes(), count);
     for (double& r : radii) r /= 2;
     return radii;
+  }
+
+  /// Solid fraction that random places of unlike sizes may reach, one in the voids of another; that of one
+  /// size is left to the lattice.
+  double most_at_random(const std::vector<double>& radii) const {
+    const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+    if (clump_ || *most < 2 * *least) return 0;
+    return 1 - std::pow(1 - kRandomMost, 1 + std::floor(std::log(*most / *least) / std::log(kFits)));
+  }
+  bool fit_lattice(const std::vector<double>& radii) const {
+    const double d_max = 2 * reach() * *std::max_element(radii.begin(), radii.end());
+    return double(radii.size()) * d_max * d_max * d_max <= volume();
   }
 
   bool spans_period(int k) const {
@@ -338,11 +354,18 @@ class Packer {
         held = double(centres.size());
       }
       if (held >= needed) break;
-      if (width <= d_max)
+      if (width <= d_max) {
+        const double d_min = 2 * *std::min_element(radii.begin(), radii.end());
+        if (d_min < d_max)
+          fail(
+              fmt::format("{} grains of {:g} to {:g} m find no places at random in the space of {:.4g} m3; "
+                          "enlarge it and let the grains settle",
+                          radii.size(), d_min, d_max, volume()));
         fail(
             fmt::format("{} grains of {:g} m need at least {:.4g} m3, the space of {:.4g} m3 holds {:.0f} of "
                         "them; enlarge it and let the grains settle",
                         radii.size(), d_max, needed * d_max * d_max * d_max, volume(), held));
+      }
       width = std::max(d_max, 0.99 * width);
     }
     shuffle(centres, random);

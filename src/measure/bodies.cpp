@@ -120,6 +120,8 @@ void CoupledSimulation::add_meters() {
     if (p.type == ProbeType::force && p.sample == ForceSample::mean) {
       const int body = wall_named(p.body);
       meters_.add(p, body, state_.bodies.place_of(body));
+    } else if (p.type == ProbeType::field && p.sample_every > 0) {
+      field_means_.add(p.name, p.sample_every);
     }
 }
 
@@ -181,6 +183,7 @@ void CoupledSimulation::advance_meters(double dt) {
 
 void CoupledSimulation::begin_interval(const ProbeConfig& probe) {
   if (const int m = meters_.place_of(probe.name); m >= 0) meters_.begin_interval(m, state_.clock.time);
+  field_means_.begin_interval(probe.name, state_.clock.time);
 }
 
 std::vector<Quantity> CoupledSimulation::body_state(int body) {

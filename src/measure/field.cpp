@@ -1,5 +1,6 @@
 // Coarse-grained fields of the grains.
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -62,7 +63,7 @@ void report(const double* sum, const std::string& suffix, std::vector<Quantity>&
 
 }  // namespace
 
-std::vector<Quantity> CoupledSimulation::field(const ProbeConfig& p) {
+std::vector<double> CoupledSimulation::field_sums(const ProbeConfig& p) {
   constexpr int kSums = CoarseTerms::kSums;
   const GrainStore& g = state_.grains;
   const FieldPoints points = points_of_field(p, state_.frame);
@@ -85,13 +86,27 @@ std::vector<Quantity> CoupledSimulation::field(const ProbeConfig& p) {
   for_each(g.owned(), spread);
   std::vector<WideSum> found = sums.to_host();
   all_reduce(found, add_up);
-  std::vector<Quantity> out;
-  double value[kSums];
-  for (std::size_t i = 0; i < n; ++i) {
-    for (int k = 0; k < kSums; ++k) value[k] = found[i * kSums + k].value() * unit[k];
-    report(value, p.span.empty() ? "" : "_" + std::to_string(i), out);
-  }
+  std::vector<double> out;
+  for (std::size_t k = 0; k < n * kSums; ++k) out.push_back(found[k].value() * unit[k % kSums]);
   return out;
+}
+
+std::vector<Quantity> CoupledSimulation::field(const ProbeConfig& p) {
+  std::vector<double> sums = field_means_.mean(p.name);
+  if (sums.empty()) sums = field_sums(p);
+  std::vector<Quantity> out;
+  for (std::size_t i = 0; i * CoarseTerms::kSums < sums.size(); ++i)
+    report(&sums[i * CoarseTerms::kSums], p.span.empty() ? "" : "_" + std::to_string(i), out);
+  return out;
+}
+
+void CoupledSimulation::sample_fields() {
+  field_means_.sample(state_.clock.time, [&](const std::string& name) {
+    stepper_.share_all();
+    const auto probe = std::find_if(config_.out.probes.begin(), config_.out.probes.end(),
+                                    [&](const ProbeConfig& p) { return p.name == name; });
+    return field_sums(*probe);
+  });
 }
 
 }  // namespace BL_SOLVER

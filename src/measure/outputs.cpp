@@ -7,6 +7,7 @@
 
 #include "bedload/parallel/loops.hpp"
 #include "kernels/coupling/fluid_records.hpp"
+#include "kernels/stress/coarse_fields.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace BL_SOLVER {
@@ -205,8 +206,14 @@ std::vector<Made> computed_of_fluid(State& state, Stepper& stepper, FluidMoments
   };
 }
 
-std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<PairMoment<>>& scratch) {
+constexpr const char* kStress = "contact_stress";  // evaluates all contacts: only if out.fields names it
+
+std::vector<Made> computed_of_grains(const Config& c, State& state, Stepper& stepper,
+                                     Buffer<PairMoment<>>& scratch) {
   GrainStore& g = state.grains;
+  const std::vector<std::string>& named = c.out.fields;
+  const bool stress = std::find(named.begin(), named.end(), kStress) != named.end() &&
+                      !std::as_const(stepper).solids().clumps().any() && !c.domain.sheared();
   return {
       {0, kFrames | kRheology,
        [&](Arrays& out) {
@@ -231,6 +238,12 @@ std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<Pair
        [&](Arrays& out) {
          const Clumps& clumps = std::as_const(stepper).solids().clumps();
          out.make<Id, ClumpIds>("clump", "-", g, clumps.of_grains(), clumps.store().id.span());
+       }},
+      {8, stress ? unsigned(kFrames) : unsigned(kNobody),
+       [&](Arrays& out) {
+         stepper.share_all();
+         out.make<GrainStress, GrainStressPass>(
+             kStress, "Pa", g, stepper.solids().actions(g, state.poses_now()), state.matter.volume_of(g));
        }},
       {8, kRheology,
        [&](Arrays& out) {
@@ -338,10 +351,11 @@ HostStore CoupledSimulation::outputs(const std::string& name, Use by, HostCopies
   const Store* const store = store_named(name);
   if (!store) return out;
   out.count = store->owned().size();
-  std::vector<Made> all = store == &state_.fluid    ? computed_of_fluid(state_, stepper_, fluid_moments_)
-                          : store == &state_.grains ? computed_of_grains(state_, stepper_, contact_moments_)
-                          : store == &state_.walls  ? computed_of_walls(state_)
-                                                    : computed_of_clumps(state_, stepper_);
+  std::vector<Made> all = store == &state_.fluid ? computed_of_fluid(state_, stepper_, fluid_moments_)
+                          : store == &state_.grains
+                              ? computed_of_grains(config_, state_, stepper_, contact_moments_)
+                          : store == &state_.walls ? computed_of_walls(state_)
+                                                   : computed_of_clumps(state_, stepper_);
   for (const FieldBase* f : written(*store, by))
     all.push_back({f->output->order, by, [=](Arrays& arrays) { arrays.copy(view_of(*f, *store)); }});
   std::stable_sort(all.begin(), all.end(), [](const Made& a, const Made& b) { return a.order < b.order; });

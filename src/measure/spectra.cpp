@@ -1,5 +1,6 @@
 // Rows of spectra.csv.
 
+#include <algorithm>
 #include <cmath>
 
 #include "bedload/case/materials.hpp"
@@ -8,23 +9,51 @@
 namespace BL_SOLVER {
 namespace {
 
-/// A class of contacts that can come about.
+/// A class of contacts that can come about: all of one name.
 struct ContactClass {
   std::string name;
-  std::uint32_t place;
+  std::vector<std::uint32_t> places;
 };
+
+/// Of each material in the order of GrainConfig::all_materials; those of clumps by the name of the clump.
+std::vector<std::string> names_of_materials(const GrainConfig& g) {
+  std::vector<std::string> names;
+  for (const GrainMaterial& m : g.named_materials()) names.push_back(name_in_pairs(m));
+  const auto add = [&](const std::string& clump, const std::string& of) {
+    names.push_back(clump + "_of_" + names[g.material(of)]);
+  };
+  for (const GrainFill& fill : g.fills)
+    if (!fill.clump.empty()) add(fill.clump, fill.material);
+  for (const ClumpConfig& clump : g.clumps)
+    for (const std::string& of : clump.dropped) add(clump.name, of);
+  return names;
+}
 
 std::vector<ContactClass> classes_of(const Config& c, const ContactSpectra& layout) {
   std::vector<ContactClass> out;
-  const std::vector<GrainMaterial> materials = c.grain.all_materials();
-  for (std::uint32_t a = 0; a < materials.size(); ++a)
-    for (std::uint32_t b = a; b < materials.size(); ++b)
-      out.push_back({name_in_pairs(materials[a]) + "_" + name_in_pairs(materials[b]), layout.of_pair(a, b)});
+  const auto add = [&](const std::string& name, std::uint32_t place) {
+    const auto same = std::find_if(out.begin(), out.end(), [&](const auto& of) { return of.name == name; });
+    if (same != out.end())
+      same->places.push_back(place);
+    else
+      out.push_back({name, {place}});
+  };
+  std::vector<std::string> kinds;
+  for (const std::string& name : names_of_materials(c.grain))
+    for (std::uint32_t size = 0; size < layout.sizes; ++size)
+      kinds.push_back(name + (layout.sizes > 1 ? "_" + std::to_string(size) : ""));
+  const auto first = [&](std::uint32_t kind) {  // of the same name
+    return std::uint32_t(std::find(kinds.begin(), kinds.end(), kinds[kind]) - kinds.begin());
+  };
+  for (std::uint32_t a = 0; a < kinds.size(); ++a)
+    for (std::uint32_t b = a; b < kinds.size(); ++b) {
+      const auto [one, other] = std::minmax({first(a), first(b)});
+      add(kinds[one] + "_" + kinds[other], layout.of_pair(a, b));
+    }
   for (std::uint32_t body = 0; body < c.wall.bodies.size(); ++body)
-    for (std::uint32_t m = 0; m < materials.size(); ++m)
+    for (std::uint32_t kind = 0; kind < kinds.size(); ++kind)
       if (c.wall.bodies[body].stops_grains())
-        out.push_back(
-            {name_in_pairs(materials[m]) + "_on_" + c.wall.bodies[body].name, layout.on_wall(body, m)});
+        add(kinds[kind] + "_on_" + c.wall.bodies[body].name, layout.on_wall(body, kind));
   return out;
 }
 
@@ -49,8 +78,9 @@ std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
     for (const ContactClass& c : classes)
       for (int kind = 0; kind < ContactSpectra::kKinds; ++kind) {
         const std::string name = c.name + (kind == 0 ? "_normal" : "_tangential");
-        const SpectrumBin& at =
-            bins[(std::size_t(c.place) * ContactSpectra::kKinds + kind) * std::size_t(size) + bin];
+        SpectrumBin at{};
+        for (const std::uint32_t place : c.places)
+          at.add(bins[(std::size_t(place) * ContactSpectra::kKinds + kind) * std::size_t(size) + bin]);
         rows.back().push_back({name + "_count", "-", double(at.count)});
         rows.back().push_back({name + "_energy", "J", at.energy.value() * layout.unit()});
       }

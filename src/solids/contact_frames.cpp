@@ -17,6 +17,7 @@ struct ContactLine {
   Vec3d force;             ///< on the grain, N
   double overlap = 0;      ///< m
   Vec3d spring;            ///< m
+  double dissipated = 0;   ///< since it began, with spectra, J
 
   double normal_force() const { return dot(force, normal); }
   Vec3d tangential_force() const { return force - normal_force() * normal; }
@@ -34,6 +35,8 @@ HostArray column(const char* name, const char* unit, const std::vector<ContactLi
   }
   return a;
 }
+
+double all_of(const ContactLoss& loss) { return loss.normal + loss.tangential; }
 
 HostArray ends_of(const std::vector<ContactLine>& lines) {
   HostArray a{"ends", "m", Scalar::f64, 6, {}};
@@ -62,6 +65,7 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
     const auto touching = histories_.touching();
     const auto history = histories_.to_host();
     const auto force = forces_->of_pairs();
+    const auto loss = spectra_ ? spectra_->of_pairs().to_host() : std::vector<ContactLoss>(list_.slots());
     const std::vector<Id> id = g.id.values();
     const std::vector<Vec3d> x = g.x.values();
     const std::vector<Real> radius = g.radius.values();
@@ -78,10 +82,12 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
                          .normal = n,
                          .force = Vec3d(force[slot]),
                          .overlap = overlap,
-                         .spring = history[slot].xi});
+                         .spring = history[slot].xi,
+                         .dissipated = all_of(loss[slot])});
       });
     const auto count = wall_contacts_ ? wall_contacts_->values() : std::vector<Index>(g.size());
     const auto at_walls = forces_->at_walls();
+    const auto lost = spectra_ ? spectra_->at_walls() : std::vector<WallLosses>{};
     for (int k = 0; k < walls_.contacts(); ++k) {
       const std::vector<WallMemory> memory = wall_memory_[k]->values();
       for (Index i = 0; i < g.owned().size(); ++i) {
@@ -96,7 +102,8 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
                          .normal = n,
                          .force = Vec3d(at_walls[std::size_t(k) * g.size() + i]),
                          .overlap = overlap,
-                         .spring = memory[i].history.xi});
+                         .spring = memory[i].history.xi,
+                         .dissipated = lost.empty() ? 0 : all_of(lost[i].of[k])});
       }
     }
     std::stable_sort(lines.begin(), lines.end(),
@@ -115,6 +122,8 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
       column<Real3>("tangential_force", "N", lines, [](Line c) { return c.tangential_force(); }));
   out.arrays.push_back(column<Real>("overlap", "m", lines, [](Line c) { return c.overlap; }));
   out.arrays.push_back(column<Real3>("spring", "m", lines, [](Line c) { return c.spring; }));
+  if (spectra_)
+    out.arrays.push_back(column<Real>("dissipated", "J", lines, [](Line c) { return c.dissipated; }));
   if (Context::current().several())
     out.arrays.push_back(column<std::uint32_t>("block", "-", lines, [](Line c) { return c.id; }));
   return out;

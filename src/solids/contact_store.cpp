@@ -139,7 +139,7 @@ void SolidSolver::load_histograms(const std::vector<HostStore>& stores) {
     if (store.name != "spectra") continue;
     const SpectrumBin* const bins = from_array<SpectrumBin>(store, "bins", "-");
     if (store.count != all.size())
-      throw FileError("checkpoint: spectra have other bins, materials or wall bodies than this case");
+      throw FileError("checkpoint: spectra have other bins, materials, sizes or wall bodies than this case");
     all.assign(bins, bins + store.count);
   }
   spectra_->load(all);

@@ -50,7 +50,8 @@ std::vector<Quantity> SolidSolver::energy_terms(const GrainStore& g) const {
 
 void SolidSolver::begin_books(const GrainStore& g, const BodyPose* poses, const GrainKick& kick) {
   if (!books_->begun()) books_->begin(energy(g));
-  books_->begin_advance(list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(), kick.wet());
+  books_->begin_advance(list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(),
+                        clumps_.store().owned().size(), kick.wet());
   count_flows(g, poses, 0, kick, {});
 }
 
@@ -67,6 +68,8 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
                                                   .wear = wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   for_each(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
+  if (dt > 0)
+    for_each(clumps_.store().owned(), ClumpFlowPass{clumps_.view(), gravity, dt, books_->of_clumps()});
 }
 
 template <class Law>
@@ -94,7 +97,8 @@ KickFlowPass SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainK
           g.spin_impulse.span(),
           books_->course(),
           books_->flows(),
-          begins};
+          begins,
+          clumps_.of_grains()};
 }
 
 }  // namespace BL_SOLVER

@@ -15,7 +15,7 @@ namespace BL_SOLVER {
 class EnergyBooks {
  public:
   /// most: far above the energy that a grain takes or gives in a substep, J.
-  explicit EnergyBooks(double most) : most_(most), all_(1) {}
+  explicit EnergyBooks(double most) : most_(most), all_(2) {}
   bool begun() const { return begun_; }
   /// Begins with so much energy of grains, J.
   void begin(double energy) { begun_ = true, start_ = energy, sum_ = EnergyFlow::zero(); }
@@ -23,22 +23,30 @@ class EnergyBooks {
   void forget() { begun_ = false, sum_ = EnergyFlow::zero(); }
 
   /// Sizes what an advance needs; drag: whether the fluid gives impulses.
-  void begin_advance(std::size_t slots, std::size_t wall_slots, Index grains, bool drag) {
+  void begin_advance(std::size_t slots, std::size_t wall_slots, Index grains, Index clumps, bool drag) {
     flows_.reserve_and_resize(grains);
-    flows_.zero();
+    of_clumps_.resize(clumps);
+    flows_.zero(), of_clumps_.zero();
     of_pairs_.reserve_and_resize(slots);
     at_walls_.reserve_and_resize(wall_slots);
     course_.resize(drag ? grains : 0);
   }
-  /// Adds what has flowed to these grains, and to those of other ranks.
+  /// Adds what has flowed to these grains, and to those of other ranks, and to clumps, which every rank has.
   void end_advance(Range grains, int substeps) {
     std::array<double, EnergyFlow::kTerms> most;
     most.fill(most_ * (substeps + 2));
+    const auto clumps = Index(of_clumps_.size());
     total_into(all_.data(), grains, FlowTotal{flows_.data()}, most);
-    sum_.add(all_.to_host()[0]);
+    if (clumps > 0)
+      total_into(all_.data() + 1, {0, Context::current().rank() == 0 ? clumps : 0},
+                 FlowTotal{of_clumps_.data()}, most);
+    const std::vector<EnergyFlow> all = all_.to_host();
+    sum_.add(all[0]);
+    if (clumps > 0) sum_.add(all[1]);
   }
 
   EnergyFlow* flows() { return flows_.data(); }
+  EnergyFlow* of_clumps() { return of_clumps_.data(); }
   ContactAction* of_pairs() { return of_pairs_.data(); }
   ContactAction* at_walls() { return at_walls_.data(); }
   GrainCourse* course() { return course_.size() > 0 ? course_.data() : nullptr; }
@@ -56,8 +64,8 @@ class EnergyBooks {
   bool begun_ = false;
   double start_ = 0;  ///< J
   EnergyFlow sum_ = EnergyFlow::zero();
-  Buffer<EnergyFlow> flows_;  ///< [grains]
-  Buffer<EnergyFlow> all_;    ///< [1]
+  Buffer<EnergyFlow> flows_, of_clumps_;  ///< [grains], [clumps]
+  Buffer<EnergyFlow> all_;                ///< sums of both
   Buffer<ContactAction> of_pairs_, at_walls_;
   Buffer<GrainCourse> course_;
 };

@@ -53,12 +53,13 @@ struct SolidParameters {
   bool plane = false;   ///< clumps move in the xz plane
   bool energy = false;  ///< its flows are counted
   struct Spectra {
-    double from = 0;                ///< J
-    int per_decade = 0;             ///< bins; 0: no spectra
-  } spectra = {};                   ///< of what contacts dissipate
-  std::vector<WearGrid> wear = {};  ///< [bodies]; empty: of none
-  double shear_rate = 0;            ///< of a sheared box, 1/s; 0: none
-  bool single_forces = false;       ///< of contacts are recorded at the end of a step
+    double from = 0;                 ///< J
+    int per_decade = 0;              ///< bins; 0: no spectra
+    std::vector<double> sizes = {};  ///< diameters between classes, m
+  } spectra = {};                    ///< of what contacts dissipate
+  std::vector<WearGrid> wear = {};   ///< [bodies]; empty: of none
+  double shear_rate = 0;             ///< of a sheared box, 1/s; 0: none
+  bool single_forces = false;        ///< of contacts are recorded at the end of a step
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls
 };

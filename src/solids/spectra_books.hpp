@@ -17,9 +17,11 @@ class SpectraBooks {
   SpectraBooks(const SolidParameters& p, GrainStore& grains, bool walls)
       : spectra_{.from = p.spectra.from,
                  .per_decade = p.spectra.per_decade,
-                 .materials = std::uint32_t(p.materials.size())},
-        bins_((p.materials.size() + p.bodies()) * p.materials.size() * ContactSpectra::kKinds *
-              std::size_t(spectra_.size())) {
+                 .materials = std::uint32_t(p.materials.size()),
+                 .sizes = std::uint32_t(p.spectra.sizes.size() + 1)} {
+    for (std::size_t k = 0; k < p.spectra.sizes.size(); ++k) spectra_.least[k] = Real(p.spectra.sizes[k] / 2);
+    bins_.resize(std::size_t(spectra_.on_wall(p.bodies(), 0)) * ContactSpectra::kKinds *
+                 std::size_t(spectra_.size()));
     if (!walls) return;
     at_walls_ = std::make_unique<Field<WallLosses>>(grains, "wall_losses", "J", Lifetime::kept);
     at_walls_->begin_at_zero();
@@ -41,6 +43,10 @@ class SpectraBooks {
     if (at_walls_) at_walls_->buffer().zero();
   }
   const FieldBase* field() const { return at_walls_.get(); }
+  /// Of each grain; empty without walls.
+  std::vector<WallLosses> at_walls() const {
+    return at_walls_ ? at_walls_->values() : std::vector<WallLosses>{};
+  }
   const ContactSpectra& layout() const { return spectra_; }
   /// Of this rank and all others.
   std::vector<SpectrumBin> bins() const {

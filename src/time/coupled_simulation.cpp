@@ -55,6 +55,7 @@ SavedState CoupledSimulation::save() {
   state_.save(out);
   stepper_.save(out);
   meters_.save(out);
+  field_means_.save(out);
   add_blocks(out);
   return out;
 }
@@ -64,6 +65,7 @@ void CoupledSimulation::load(const SavedState& saved) {
   stepper_.load(saved);
   wall_forces_.step = fluid_loads_.step = held_.step = grain_loads_.step = -1;
   begin_meters(&saved);
+  field_means_.load(saved, state_.clock.time);
 }
 
 std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, Link* link) {

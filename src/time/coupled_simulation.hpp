@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bedload/parallel/host_copies.hpp"
+#include "src/measure/field_means.hpp"
 #include "src/measure/force_meters.hpp"
 #include "src/time/stepper.hpp"
 
@@ -19,6 +20,7 @@ class CoupledSimulation final : public Simulation {
   StepInfo step() override {
     const StepInfo info = stepper_.step();
     if (meters_.any()) advance_meters(info.dt);
+    if (field_means_.any()) sample_fields();
     return info;
   }
   void settle(double longest, const std::function<void(double)>& progress) override {
@@ -27,6 +29,7 @@ class CoupledSimulation final : public Simulation {
   void start() override {
     stepper_.start();
     begin_meters(nullptr);
+    field_means_.load({}, state_.clock.time);
   }
 
   double time() const override { return state_.clock.time; }
@@ -122,6 +125,8 @@ class CoupledSimulation final : public Simulation {
   std::vector<Quantity> wall_pressure(const ProbeConfig& probe);
   std::vector<Quantity> mixing(const ProbeConfig& probe);
   std::vector<Quantity> field(const ProbeConfig& probe);
+  std::vector<double> field_sums(const ProbeConfig& probe);  ///< [points][CoarseTerms::kSums]
+  void sample_fields();
 
   const Config config_;
   State state_;
@@ -135,6 +140,7 @@ class CoupledSimulation final : public Simulation {
   Kept<std::unique_ptr<PressureCorrection>> held_;  ///< null until needed
   Kept<std::vector<LoadSum>> grain_loads_;
   ForceMeters meters_;
+  FieldMeans field_means_;
   Buffer<LoadSum> meter_pressure_, meter_friction_, meter_repulsion_;  ///< scratch
 };
 

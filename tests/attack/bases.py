@@ -494,6 +494,7 @@ at = [0.1, 0.1, 0.05]
 span = [[0.05, 0, 0], [0, 0.03, 0.02]]
 count = [3, 2]
 radius = 0.02
+sample_every = 0.01
 [[probe]]
 name = "wall"
 type = "wall_pressure"

@@ -214,6 +214,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"every = 0.01", "every = 0.01\nspectra = true\n[lubrication]\nforces = \"normal\"",
               "dam.toml:25: out.spectra = true must be false with lubrication.forces, whose losses are not "
               "counted"},
+        Wrong{"every = 0.01", "every = 0.01\nspectra = true\nspectra_sizes = [0.002, 0.001]",
+              "dam.toml:26: out.spectra_sizes = [0.002, 0.001] must be up to 7 diameters in rising order"},
         Wrong{"[grain]\nd = 0.002", "wear = \"archard\"\n[grain]\nd = 0.002",
               "dam.toml:10: wall.body.k_over_H must be given (dimensionless wear coefficient of Archard's "
               "law over "

@@ -190,6 +190,9 @@ TEST(ProbeCase, OfFieldsTakesAKernelAndPointsThatSpanSomething) {
             "probe.radius = 0.0035 m must be >= 0.004 m, two diameters of the largest grain");
   EXPECT_EQ(refused(with_probe(field + two + "span = [[0.01, 0, 0], [0.02, 0, 0]]\ncount = [2, 2]\n")),
             "probe.span = 2 vectors must not be 0, nor lie along one another or in one plane");
+  EXPECT_EQ(read(with_probe(field + two + "sample_every = 0.001\n")).out.probes[0].sample_every, 0.001);
+  EXPECT_EQ(refused(with_probe(field + two + "sample_every = 0.02\n")),
+            "probe.sample_every = 0.02 s must be <= 0.01 s, the interval of its rows");
 }
 
 }  // namespace

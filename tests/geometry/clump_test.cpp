@@ -170,7 +170,6 @@ TEST(ClumpCase, SaysWhatIsWrong) {
   EXPECT_EQ(
       error_of(rods("count = 20\n", "[[outlet]]\nname = \"end\"\nmin = [0, 0, 0]\nmax = [0.01, 0.1, 0.1]\n")),
       "");
-  expect(rods("count = 20\n", "energy = true\n"), "out.energy = true must be false with clumps");
   expect(rods("count = 20\n", "[domain.reflect]\nslip = [\"x-\"]\n"), "must not be given with clumps");
 }
 

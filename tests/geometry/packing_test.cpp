@@ -216,6 +216,24 @@ TEST(GrainPacking, LargeGrainsFindTheirPlacesFirst) {
   EXPECT_GE(closest_gap(grains, config.domain), 0);
 }
 
+/// Denser than random places of one size are, where a lattice of the largest holds 27.
+TEST(GrainPacking, FineGrainsFillTheVoidsOfCoarseOnes) {
+  Config config = grain_case({0.03, 0.03, 0.03});
+  config.grain.d_min = 0.002, config.grain.d_max = 0.01;
+  config.grain.fills[0].sizes = {{0.01, 0.007}, {0.002, 0.993}};  // half of the volume each
+  config.grain.fills[0].packing_fraction = 0.42;
+  const auto grains = setup_of(config).grains;
+  EXPECT_GT(grains.x.size(), 1000u);
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+  expect_inside(grains, {0, 0, 0}, {0.03, 0.03, 0.03});
+  config.grain.fills[0].packing_fraction = 0.61;
+  EXPECT_NE(
+      error_of(config).find("grains of 0.002 to 0.01 m find no places at random in the space of 2.7e-05 m3; "
+                            "enlarge it and let the grains settle"),
+      std::string::npos)
+      << error_of(config);
+}
+
 TEST(GrainPacking, KeepsClearAcrossThePeriod) {
   Config config = grain_case({0.045, 0.045, 0.1});
   config.domain.periodic = {true, true, false};

@@ -48,6 +48,33 @@ std::vector<PairPosition> packed(const Frame& f, const std::vector<Vec3d>& x) {
   return out;
 }
 
+/// A cloud in the order of the cells of a grid, on the device.
+struct SortedCloud {
+  Frame frame;
+  CellGrid grid;
+  std::vector<Vec3d> x;
+  Buffer<Vec3d> place;
+  Buffer<PairPosition> p;
+
+  SortedCloud(const Cloud& c, double cell)
+      : frame(c.frame), grid(frame, frame.origin, frame.origin + frame.length, cell), x(sorted(c, grid)) {
+    place.assign(x);
+    p.assign(packed(frame, x));
+  }
+  Index size() const { return Index(x.size()); }
+  PairSeparation separation() const { return {frame, p, p}; }
+  SphNear<Vec3d> near(double range) const { return {frame, place, p, p, range, true}; }
+  SphNear<Vec3d> near(double range, const HalfSkins& skins) const {
+    return {frame, place, p, p, range, true, skins, skins};
+  }
+#if BL_CUDA
+  void build(TileList& tiles, double range, const HalfSkins& skins, unsigned bits) {
+    tiles.build(size(), grid, frame, Span<const Vec3d>(place), Span<const PairPosition>(p), range, skins,
+                bits);
+  }
+#endif
+};
+
 struct CountRow {
   Span<std::uint32_t> count;
   BL_HD std::uint32_t start(Index) const { return 0; }
@@ -102,13 +129,8 @@ class Neighbours : public testing::TestWithParam<std::tuple<int, double>> {};
 
 TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
   const auto [mask, range] = GetParam();
-  const Cloud c = cloud(700, mask & 1, mask & 2, mask & 4, {0.5, 0.31, 0.42}, 3);
-  CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, range);
-  const auto x = sorted(c, grid);
-  Buffer<Vec3d> device;
-  device.assign(x);
-  Buffer<PairPosition> p;
-  p.assign(packed(c.frame, x));
+  SortedCloud c(cloud(700, mask & 1, mask & 2, mask & 4, {0.5, 0.31, 0.42}, 3), range);
+  const std::vector<Vec3d>& x = c.x;
 
   std::vector<std::set<Index>> expected(x.size());
   for (Index i = 0; i < x.size(); ++i)
@@ -116,23 +138,20 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
       if (i != j && norm(c.frame.separation(x[i], x[j])) < range) expected[i].insert(j);
 
   VerletList list;
-  list.build(Index(x.size()), grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true});
-  const PairSeparation separation{c.frame, p, p};
-  auto found = rows_of(list, separation, range);
+  list.build(c.size(), c.grid.view(), c.near(range));
+  auto found = rows_of(list, c.separation(), range);
   for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "particle " << i;
 #if BL_CUDA
   TileList tiles;
   for (unsigned bits : {0, 2}) {
-    tiles.build(Index(device.size()), grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p),
-                range, {}, bits);
-    found = rows_of(tiles, separation, range);
+    c.build(tiles, range, {}, bits);
+    found = rows_of(tiles, c.separation(), range);
     for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "tiles, particle " << i;
   }
 #endif
 
   Buffer<std::uint32_t> count(x.size());
-  for_each_pair({0, Index(x.size())}, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true},
-                PairSeparation{c.frame, p, p}, range, CountRow{count});
+  for_each_pair({0, c.size()}, c.grid.view(), c.near(range), c.separation(), range, CountRow{count});
   const auto counts = count.to_host();
   for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(counts[i], expected[i].size());
 }
@@ -141,14 +160,9 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 TEST(SmallNeighbours, ListsReachAsFarAsHalfSkinsSay) {
   const double range = 0.06, most = 0.02;
   for (const bool periodic : {false, true}) {
-    const Cloud c = cloud(400, periodic, false, periodic, {0.5, 0.31, 0.42}, 4);
-    CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, range + 2 * most);
-    const auto x = sorted(c, grid);
-    const Index n = Index(x.size());
-    Buffer<Vec3d> device;
-    device.assign(x);
-    Buffer<PairPosition> p;
-    p.assign(packed(c.frame, x));
+    SortedCloud c(cloud(400, periodic, false, periodic, {0.5, 0.31, 0.42}, 4), range + 2 * most);
+    const std::vector<Vec3d>& x = c.x;
+    const Index n = c.size();
     std::vector<Real> skin;
     for (Index i = 0; i < n; ++i) skin.push_back(Real(i % 7 == 0 ? most : 0.001 * (i % 5)));
     Buffer<Real> own;
@@ -164,16 +178,14 @@ TEST(SmallNeighbours, ListsReachAsFarAsHalfSkinsSay) {
     EXPECT_LT(listed, 2 * uniform / 3);
     const HalfSkins skins(own, most);
     VerletList list;
-    list.build(n, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true, skins, skins});
-    const PairSeparation separation{c.frame, p, p};
-    auto found = rows_of(list, separation, range + 2 * most);
+    list.build(n, c.grid.view(), c.near(range, skins));
+    auto found = rows_of(list, c.separation(), range + 2 * most);
     for (Index i = 0; i < n; ++i) EXPECT_EQ(found[i], expected[i]) << "particle " << i;
 #if BL_CUDA
     TileList tiles;
     for (unsigned bits : {0, 2}) {
-      tiles.build(Index(device.size()), grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p),
-                  range, skins, bits);
-      found = rows_of(tiles, separation, range + 2 * most);
+      c.build(tiles, range, skins, bits);
+      found = rows_of(tiles, c.separation(), range + 2 * most);
       for (Index i = 0; i < n; ++i) EXPECT_EQ(found[i], expected[i]) << "tiles, particle " << i;
     }
 #endif
@@ -187,15 +199,10 @@ INSTANTIATE_TEST_SUITE_P(Boxes, Neighbours,
 
 /// A list that is built again holds what it should, however much more or less than before that is.
 TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
-  const Cloud c = cloud(700, true, true, false, {0.5, 0.31, 0.42}, 6);
-  CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, 0.15);
-  const auto x = sorted(c, grid);
-  const Index n = Index(x.size());
-  Buffer<Vec3d> device;
-  device.assign(x);
-  Buffer<PairPosition> p;
-  p.assign(packed(c.frame, x));
-  const PairSeparation separation{c.frame, p, p};
+  SortedCloud c(cloud(700, true, true, false, {0.5, 0.31, 0.42}, 6), 0.15);
+  const std::vector<Vec3d>& x = c.x;
+  const Index n = c.size();
+  const PairSeparation separation = c.separation();
   VerletList list;
   Buffer<std::uint32_t> count(n);
 #if BL_CUDA
@@ -203,7 +210,7 @@ TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
 #endif
   std::size_t most = 0;
   for (const double range : {1e-6, 0.03, 0.15, 0.05, 0.15}) {
-    list.build(n, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true});
+    list.build(n, c.grid.view(), c.near(range));
     std::vector<std::set<Index>> expected(n);
     std::size_t pairs = 0;
     for (Index i = 0; i < n; ++i)
@@ -217,14 +224,13 @@ TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
     EXPECT_GE(list.bytes(), std::max(most, pairs) * sizeof(Index)) << "memory is kept";
     most = std::max(most, pairs);
 #if BL_CUDA
-    tiles.build(Index(device.size()), grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p),
-                range, {}, 2);
+    c.build(tiles, range, {}, 2);
     EXPECT_EQ(rows_of(tiles, separation, range), expected) << "tiles, " << range;
 #endif
   }
   EXPECT_GT(most, 60u * n) << "the test means it to grow";
   const std::size_t held = list.bytes();
-  list.build(0, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, 0.15, true});
+  list.build(0, c.grid.view(), c.near(0.15));
   EXPECT_EQ(list.rows(), 0u);
   EXPECT_EQ(list.slots(), 0u);
   EXPECT_EQ(list.bytes(), held);
@@ -235,38 +241,20 @@ TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
 /// memory a search takes, and must not decide the order of entries. Here y has two cells.
 TEST(SmallNeighbours, OrderOfTilesDoesNotDependOnSearchesBefore) {
   const double range = 0.07, most = 0.015;
-  const Cloud c = cloud(2000, false, true, false, {0.6, 0.21, 0.4}, 7);
-  CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, range + 2 * most);
-  const auto x = sorted(c, grid);
-  const Index n = Index(x.size());
-  Buffer<Vec3d> device;
-  device.assign(x);
-  Buffer<PairPosition> p;
-  p.assign(packed(c.frame, x));
+  SortedCloud c(cloud(2000, false, true, false, {0.6, 0.21, 0.4}, 7), range + 2 * most),
+      few(cloud(60, false, true, false, {0.6, 0.21, 0.4}, 8), range + 2 * most);
   std::vector<Real> skin;  // only at one end far more than elsewhere
-  for (const auto& at : x) skin.push_back(Real(at.x < c.frame.origin.x + 0.05 ? most : 0.001));
+  for (const auto& at : c.x) skin.push_back(Real(at.x < c.frame.origin.x + 0.05 ? most : 0.001));
   Buffer<Real> own;
   own.assign(skin);
 
-  const Cloud few = cloud(60, false, true, false, {0.6, 0.21, 0.4}, 8);
-  CellGrid few_grid(few.frame, few.frame.origin, few.frame.origin + few.frame.length, range + 2 * most);
-  const auto few_x = sorted(few, few_grid);
-  Buffer<Vec3d> few_device;
-  few_device.assign(few_x);
-  Buffer<PairPosition> few_p;
-  few_p.assign(packed(few.frame, few_x));
-
-  const PairSeparation separation{c.frame, p, p};
+  const PairSeparation separation = c.separation();
   for (unsigned bits : {0, 2}) {
     TileList tiles, after_few;
-    const auto build = [&](TileList& list) {
-      list.build(n, grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range,
-                 HalfSkins(own, most), bits);
-    };
+    const auto build = [&](TileList& list) { c.build(list, range, HalfSkins(own, most), bits); };
     build(tiles);
     build(after_few);  // so that it has capacity for all
-    after_few.build(Index(few_x.size()), few_grid, few.frame, Span<const Vec3d>(few_device),
-                    Span<const PairPosition>(few_p), range, {most}, bits);
+    few.build(after_few, range, {most}, bits);
     build(after_few);
     EXPECT_EQ(ordered_rows_of(tiles, separation, range + 2 * most),
               ordered_rows_of(after_few, separation, range + 2 * most));
@@ -311,14 +299,9 @@ template <class W>
 void expect_lists_and_cells_agree(bool periodic, int many = 700) {
   const double range = 0.08, h = range / W::kappa;
   const Vec3d size = many > 700 ? Vec3d{0.25, 0.25, 0.25} : Vec3d{0.5, 0.31, 0.42};
-  const Cloud c = cloud(many, periodic, periodic, false, size, 9);  // rows of 0 to 50 entries, or of hundreds
-  CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, 1.2 * range);
-  const auto x = sorted(c, grid);
-  const Index n = Index(x.size());
-  Buffer<Vec3d> place;
-  place.assign(x);
-  Buffer<PairPosition> p;
-  p.assign(packed(c.frame, x));
+  // rows of 0 to 50 entries, or of hundreds
+  SortedCloud c(cloud(many, periodic, periodic, false, size, 9), 1.2 * range);
+  const Index n = c.size();
   std::mt19937 rng(4);
   std::uniform_real_distribution<double> u(0.5, 1);
   const auto random = [&] { return Real(u(rng)); };
@@ -337,12 +320,12 @@ void expect_lists_and_cells_agree(bool periodic, int many = 700) {
   threes.assign(three);
   fours.assign(four);
 
-  const SphNear<Vec3d> near{c.frame, place, p, p, 1.2 * range, true};
-  const PairSeparation separation{c.frame, p, p};
+  const SphNear<Vec3d> near = c.near(1.2 * range);
+  const PairSeparation separation = c.separation();
   const W w(h);
   const double scale = w.W(Real(0.5 * h)),
                bound = (many > 700 ? 30 : 1) * tolerance(1e-13, 2e-6, 2e-6);  // sums of as many more
-  for_each_pair({0, n}, grid.view(), near, separation, range,
+  for_each_pair({0, n}, c.grid.view(), near, separation, range,
                 MomentPass<W>{w, ones, threes, fours, by_cells});
   const auto b = by_cells.to_host();
   const auto expect_same = [&](const auto& list, const std::string& which, double bound) {
@@ -358,13 +341,12 @@ void expect_lists_and_cells_agree(bool periodic, int many = 700) {
     EXPECT_GT(most, scale);
   };
   VerletList list;
-  list.build(n, grid.view(), near);
+  list.build(n, c.grid.view(), near);
   expect_same(list, "list, ", bound);
 #if BL_CUDA
   TileList tiles;
   for (unsigned bits : {0, 1, 3, 5}) {
-    tiles.build(Index(place.size()), grid, c.frame, Span<const Vec3d>(place), Span<const PairPosition>(p),
-                1.2 * range, {}, bits);
+    c.build(tiles, 1.2 * range, {}, bits);
     // places rounded to 2^-24 of a tile that is as wide as the box, six times the range
     expect_same(tiles, "tiles of " + std::to_string(1 << bits) + " lanes, ", 2 * bound);
   }

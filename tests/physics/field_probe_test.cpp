@@ -106,6 +106,7 @@ TEST(SmallFieldProbe, IsTheSumOfTheGrainsAround) {
 TEST(SmallFieldProbe, BalancesTheForcesOfContacts) {
   const Heap heap;
   const HostStore grains = heap.s->snapshot("grains");
+  EXPECT_FALSE(grains.find("contact_stress")) << "not asked for";
   const std::vector<Vec3d> force = vectors(grains, "contact_force");
   constexpr double kStep = 0.004 * kWidth;
   for (const Vec3d& at : {Vec3d{0.001, 0.0015, 0.0155}, {0.048, 0.003, 0.02}}) {
@@ -130,6 +131,41 @@ TEST(SmallFieldProbe, BalancesTheForcesOfContacts) {
   }
 }
 
+/// Rows that are means have the sums over their instants, in which velocities are means by mass; as after a
+/// restart in between.
+TEST(SmallFieldProbe, AveragesOverInstants) {
+  Heap heap(2);
+  ProbeConfig now = field({0.001, 0.002, 0.006}), mean = now;
+  mean.name = "mean", mean.sample_every = 1e-9;  // of each step
+  heap.config.out.probes = {now, mean};
+  heap.s = started(heap.config, heap.setup);
+  auto again = make_coupled(heap.config, heap.setup);
+  for (int step = 0; step < 3; ++step) heap.s->step();
+  heap.s->begin_interval(mean);
+  const int steps = 6;
+  double density = 0, momentum = 0, flow = 0, stress = 0;
+  for (int step = 0; step < steps; ++step) {
+    if (step == 3) again->load(heap.s->save());
+    heap.s->step();
+    if (step >= 3) again->step();
+    const auto found = heap.s->measure(now);
+    const double rho = reading(found, "density"), v = reading(found, "velocity_x");
+    density += rho / steps, momentum += rho * v / steps;
+    flow += (rho * v * v - reading(found, "kinetic_stress_xx")) / steps;
+    stress += reading(found, "contact_stress_zz") / steps;
+  }
+  ASSERT_GT(density, 1);
+  const auto found = heap.s->measure(mean);
+  EXPECT_NEAR(reading(found, "density") / density, 1, 1e-12);
+  EXPECT_NEAR(reading(found, "velocity_x") * density / momentum, 1, 1e-12);
+  EXPECT_NEAR(reading(found, "contact_stress_zz") / stress, 1, 1e-12);
+  EXPECT_NEAR(reading(found, "kinetic_stress_xx"), momentum * momentum / density - flow, 1e-12 * flow);
+  EXPECT_NE(reading(found, "density"), reading(heap.s->measure(now), "density"));
+  const auto restarted = again->measure(mean);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    EXPECT_EQ(found[k].value, restarted[k].value) << found[k].name;
+}
+
 /// Integrals over all space are those of the grains: volume, force times distance, a contact each.
 TEST(SmallFieldProbe, KeepsVolumeAndMoments) {
   Heap heap(0);
@@ -137,6 +173,7 @@ TEST(SmallFieldProbe, KeepsVolumeAndMoments) {
   heap.setup.grains.v = {{}, {}};
   heap.setup.grains.radius = {2.5e-3, 2.5e-3};
   heap.setup.grains.fill = {0, 0};
+  heap.config.out.fields = {"contact_stress"};
   heap.s = started(heap.config, heap.setup);
   const double force = vectors(heap.s->snapshot("grains"), "contact_force")[1].x;
   ASSERT_GT(force, 0);
@@ -154,7 +191,13 @@ TEST(SmallFieldProbe, KeepsVolumeAndMoments) {
   EXPECT_NEAR(sum[6] * each / (force * 4.5e-3), -1, close);
   ASSERT_EQ(found[21].name, "fabric_xx_0");
   EXPECT_NEAR(sum[21] * each / volume, 1, close);
-  EXPECT_EQ(sum[10], 0);  // contact_stress_yy
+  EXPECT_EQ(sum[10], 0);                                // contact_stress_yy
+  const HostStore grains = heap.s->snapshot("grains");  // that of each grain, in frames
+  const HostArray& stress = *grains.find("contact_stress");
+  ASSERT_EQ(stress.components, 9);
+  for (int k = 0; k < 18; ++k)
+    EXPECT_NEAR(stress.as<Real>()[k] * heap.volume(0) / (force * 2.25e-3), k % 9 == 0 ? -1 : 0,
+                tolerance(1e-9, 1e-5, 1e-5));
 }
 
 }  // namespace

@@ -215,6 +215,7 @@ at = [-0.02, 0, -0.03]
 span = [[0.04, 0, 0], [0, 0, 0.03]]
 count = [4, 3]
 radius = 0.011
+sample_every = 0.002
 [[probe]]
 name = "flux"
 type = "flux"
@@ -430,8 +431,8 @@ std::vector<RankCase> rank_cases() {
       {"inlet and outlet", kDuct, {}, 120},
       {"drum of grains",
        kDrum + kMixed,
-       {"out.spectra=true", "out.contacts=touching", "wall.body.0.wear=archard",
-        "wall.body.0.k_over_H=1e-13"},
+       {"out.spectra=true", "out.contacts=touching", "out.fields=[\"contact_stress\"]",
+        "wall.body.0.wear=archard", "wall.body.0.k_over_H=1e-13"},
        100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
       {"drifting bed", drifting_bed(), {"out.spectra=true", "out.contacts=touching"}, 60},
@@ -447,7 +448,7 @@ std::vector<RankCase> rank_cases() {
       {"grains in fluid that do not act on it", kTank + kFluid + kSingle, {"couple.mode=off"}, 40},
       {"slurry", kDam + kSlurry, {}, 60},
       {"slurry of large and small grains", kDam + kTwoSizesOfSlurry, {}, 30},
-      {"bed with a rigid group", test::kBed + kGate, {}, 30},
+      {"bed with a rigid group", test::kBed + kGate, {"out.energy=true"}, 30},
       {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
       {"slurry, one way, mirrored walls", kDam + kSlurry, {"couple.mode=one_way", "wall.type=mdbc"}, 30},
       {"slurry with a float", kTank + kFluid + kSingle + test::kFloat, {}, 30},

@@ -266,6 +266,56 @@ TEST(SmallClump, GoesOnFromACheckpointBitForBit) {
   EXPECT_EQ(bits(*whole), bits(*parted));
 }
 
+/// Rods, whose spheres' centre is not that of mass, and grains that fall on a floor that slides: what they
+/// gain and lose of energy is work of gravity and the floor and what contacts dissipate.
+TEST(SmallClump, EnergyIsCounted) {
+  const Config c = config_of(R"([domain]
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.2]
+periodic = [true, true, false]
+[time]
+end = 100
+[out]
+every = 100
+spectra = true
+[[wall.body]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0.01]
+normal = [0, 0, 1]
+surface_velocity = [0.2, 0, 0]
+[[clump]]
+name = "rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1.2, 0.2, 0, 0.7]]
+[grain]
+d = 0.01
+E = 1e7
+mu = 0.5
+e = 0.6
+[[grain.fill]]
+min = [0, 0, 0.02]
+max = [0.06, 0.06, 0.1]
+count = 20
+clump = "rod"
+[[grain.fill]]
+min = [0, 0, 0.02]
+max = [0.06, 0.06, 0.1]
+count = 20
+)");
+  auto s = started(c);
+  run_until(*s, 0.15);
+  const auto d = s->diagnostics();
+  const auto term = [&](const char* name) { return reading(d, std::string("grain_") + name); };
+  const double lost = term("dissipated_normal") + term("dissipated_sliding") + term("dissipated_rolling");
+  EXPECT_GT(lost, 0.3 * term("work_gravity"));
+  EXPECT_GT(term("work_walls"), 0);
+  EXPECT_LT(std::abs(term("energy_residual")), 1e-3 * lost);
+  EXPECT_NEAR(term("work_gravity"),
+              reading(started(c)->diagnostics(), "grain_potential_energy") - term("potential_energy"),
+              1e-3 * lost);
+  EXPECT_EQ(s->spectra()[0][9].name, "rod_of_grain_rod_of_grain_normal_count");
+}
+
 /// Still water around a clump that is denser.
 std::string in_water(const std::string& rest) {
   return R"(gravity = [0, 0, -9.81]

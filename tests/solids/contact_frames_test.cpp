@@ -24,7 +24,7 @@ Vec3d vector_at(const HostStore& store, const char* name, std::size_t n, int fir
 
 TEST(ContactFrames, ForcesOfLinesAddUpToThatOnEachGrain) {
   GrainBench b;
-  b.config.out.contacts = "touching";
+  b.config.out.contacts = "touching", b.config.out.spectra = true;
   b.config.gravity = {0, 0, -9.81};
   b.config.domain.min = {-0.01, -0.01, -0.01}, b.config.domain.max = {0.01, 0.01, 0.1};
   b.config.domain.periodic = {true, false, false};
@@ -54,7 +54,7 @@ TEST(ContactFrames, ForcesOfLinesAddUpToThatOnEachGrain) {
   ASSERT_GT(totals.wall_contacts, 8);
   std::vector<Vec3d> sum(b.x.size());
   std::array<int, 4> of_body{};
-  double sliding = 0, longest = 0;
+  double sliding = 0, longest = 0, lost = 0;
   for (std::size_t n = 0; n < lines.count; ++n) {
     const auto id = std::size_t(entry(lines, "id", n)), other = std::size_t(entry(lines, "other", n));
     const auto body = std::size_t(entry(lines, "body", n));
@@ -74,6 +74,7 @@ TEST(ContactFrames, ForcesOfLinesAddUpToThatOnEachGrain) {
     ++of_body.at(body);
     sliding = std::max(sliding, norm(along));
     longest = std::max(longest, norm(vector_at(lines, "spring", n)));
+    lost += entry(lines, "dissipated", n);
     if (n > 0) {
       EXPECT_LE(entry(lines, "id", n - 1), id) << "by ids";
     }
@@ -85,6 +86,14 @@ TEST(ContactFrames, ForcesOfLinesAddUpToThatOnEachGrain) {
   EXPECT_GT(sliding, 1e-3 * scale);
   EXPECT_GT(longest, 0);
   for (Id i = 0; i < b.x.size(); ++i) EXPECT_LT(norm(sum[i] - b.force(i)), 1e-6 * scale) << i;
+  // what these have dissipated and what those that have ended make up all
+  EXPECT_GT(lost, 0);
+  for (const SpectrumBin& bin : b.solver->spectra()->bins())
+    lost += bin.energy.value() * b.solver->spectra()->layout().unit();
+  double all = 0;
+  for (const Quantity& q : b.solver->energy_terms(*b.grains))
+    if (q.name.starts_with("grain_dissipated")) all += q.value;
+  EXPECT_NEAR(lost / all, 1, 1e-6);
 }
 
 TEST(ContactFrames, AreOnlyThereIfAskedFor) {

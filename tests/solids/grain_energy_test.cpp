@@ -51,6 +51,7 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
   for (const double e : {0.5, 0.7, 0.9}) {
     GrainBench b;
     b.config.out.energy = b.config.out.spectra = true;
+    b.config.out.spectra_sizes = {b.config.grain.d, 2 * b.config.grain.d};  // both are in the second class
     b.config.grain.e = e;
     const double R = b.R(), speed = 0.2;
     b.add({-1.001 * R, 0, 0}, {speed / 2, 0, 0});
@@ -67,10 +68,12 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
     EXPECT_NEAR(ended(*b.solver).energy[0] / dissipated(terms), 1, 1e-6);
     const ContactSpectra& layout = b.solver->spectra()->layout();
     const auto bins = b.solver->spectra()->bins();
+    const std::size_t first =
+        std::size_t(layout.of_pair(1, 1)) * ContactSpectra::kKinds * std::size_t(layout.size());
     for (int k = 0; k < layout.size(); ++k) {
       const double from = layout.from * std::pow(10.0, double(k) / layout.per_decade),
                    to = from * std::pow(10.0, 1.0 / layout.per_decade);
-      EXPECT_EQ(bins[k].count, lost > from && lost < to ? 1u : 0u) << k;
+      EXPECT_EQ(bins[first + std::size_t(k)].count, lost > from && lost < to ? 1u : 0u) << k;
     }
   }
 }
@@ -169,6 +172,8 @@ TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   EXPECT_NEAR(worn / (1e-13 * mass * g * path), 1, 1e-3);
   EXPECT_NEAR(over_patches(map, "shear_energy") / after["grain_dissipated_sliding"], 1, 1e-6);
   EXPECT_NEAR(over_patches(map, "normal_energy"), after["grain_dissipated_normal"], 1e-6 * dissipated(after));
+  EXPECT_NEAR((over_patches(map, "contact_time") - over_patches(map_before, "contact_time")) / (4 * 0.1), 1,
+              0.01);
   ASSERT_GE(map.count, 2u) << "it has crossed patches";
   for (std::size_t k = 0; k < map.count; ++k) {
     const double* const x = map.find("position")->as<double>() + 3 * k;
@@ -184,6 +189,7 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   c.domain.min = {-0.02, -0.02, -0.02}, c.domain.max = {0.02, 0.02, 0.02};
   c.gravity = {0, 0, -9.81};
   c.out.energy = c.out.spectra = true;
+  c.out.spectra_sizes = {1e-3};
   WallBody floor = ground();
   floor.point = {0, 0, -0.005};
   floor.wear = "archard", floor.k_over_H = 1e-13;
@@ -219,8 +225,9 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   EXPECT_GT(map.count, 1u);
   for (const HostArray& array : map.arrays)
     EXPECT_TRUE(array.bytes == map_again.find(array.name)->bytes) << array.name;
-  EXPECT_EQ(bins[0][1].name, "grain_grain_normal_count");
-  EXPECT_EQ(bins[0][5].name, "grain_on_plane_normal_count");
+  EXPECT_EQ(bins[0][1].name, "grain_0_grain_0_normal_count");
+  EXPECT_EQ(bins[0][9].name, "grain_1_grain_1_normal_count");
+  EXPECT_EQ(bins[0][17].name, "grain_1_on_plane_normal_count");
 }
 
 /// A bed in a turning drum. What turns the drum is the moment of its weight.

@@ -33,6 +33,7 @@ struct ProbeConfig {
   double larger_than = 0;                      ///< mixing: or the diameter that grains of one kind exceed, m
   double cell = 0;                             ///< mixing: edge of the samples, m
   double every = 0;                            ///< s; 0: out.every
+  double sample_every = 0;                     ///< field: between instants of a mean, s; 0: that of the row alone
   bool operator==(const ProbeConfig&) const = default;
 };
 
@@ -46,6 +47,7 @@ struct OutputConfig {
   bool spectra = false;                        ///< spectra of what contacts dissipate
   std::int64_t spectra_bins = 20;              ///< a decade
   double spectra_from = 1e-12;                 ///< lower edge of the first bin, J
+  std::vector<double> spectra_sizes;           ///< diameters between classes of sizes, m; empty: one class
   Chosen<ContactFrames> contacts = ContactFrames::none;  ///< frames of single contacts of grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
