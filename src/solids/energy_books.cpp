@@ -68,7 +68,7 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
                                                   .wear = wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   for_each(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
-  if (dt > 0)
+  if (clumps_.any() && dt > 0)
     for_each(clumps_.store().owned(), ClumpFlowPass{clumps_.view(), gravity, dt, books_->of_clumps()});
 }
 
