@@ -89,8 +89,8 @@ TEST_F(Bench, TimesFramesAndRemovesThem) {
   const auto json = nlohmann::json::parse(content_of(dir_ / "speed.json"));
   EXPECT_EQ(json.at("frame_every"), 2);
   const auto& row = json.at("rows").at(0);
-  const double ms = row.at("step_ms"), with = row.at("step_with_frames_ms");
-  EXPECT_GT(with, 0);
+  const double ms = row.at("step_beside_frames_ms"), with = row.at("step_with_frames_ms");
+  EXPECT_GT(std::min(ms, with), 0);
   EXPECT_NEAR(row.at("frames_percent"), 100 * (1 - ms / with), 1e-9 * (100 + 100 * ms / with));
   EXPECT_GE(row.at("frame_wait_ms"), 0);
   EXPECT_GE(row.at("frame_writing_ms"), 0);
