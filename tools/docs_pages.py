@@ -15,12 +15,13 @@ from mkdocs.structure.files import File
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAM = os.environ.get("BEDLOAD", ROOT / "build/cpu/bedload")
 COMMANDS = ["run", "viscometer", "check", "list", "info", "convert", "bench", "schema", "completion", "man"]
-# Files outside docs/ as pages and pictures of the site.
+# Files outside docs/ as pages, pictures and films of the site.
 PAGES = {f"cases/{path.parent.name}/README.md": f"cases/{path.parent.name}.md"
          for path in sorted(ROOT.glob("cases/*/README.md"))}
 PAGES |= {"tests/bench/README.md": "speed.md", "CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           "kernels/references.md": "references.md"}
-PICTURES = {str(path.relative_to(ROOT)): str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("cases/*/*.png"))}
+PICTURES = {str(path.relative_to(ROOT)): str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("cases/*/*"))
+            if path.suffix in (".png", ".mp4")}
 
 
 def program(*arguments):
@@ -103,6 +104,6 @@ def on_page_markdown(markdown, page, config, files):
         place = (PAGES | PICTURES).get(path) or (path.removeprefix("docs/") if path.startswith("docs/") else None)
         return f"]({posixpath.relpath(place, posixpath.dirname(here) or '.')}{anchor})" if place else match[0]
 
-    return re.sub(r"\]\(([^)#:\s]+\.(?:md|png))(#[^)\s]*)?\)", link, markdown)
+    return re.sub(r"\]\(([^)#:\s]+\.(?:md|png|mp4))(#[^)\s]*)?\)", link, markdown)
 
 
