@@ -1,6 +1,5 @@
 // Clumps that fall, turn, strike and collide.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -155,7 +154,7 @@ orientation = [0, 0, 0]
 
 TEST(Clump, RodOnItsEndReboundsAsARigidBody) {
   for (const double angle : {45.0, 60.0, 80.0}) {
-    const Config c = config_of(in_space(fmt::format(fmt::runtime(R"([[wall.body]]
+    const Config c = config_of(in_space(R"([[wall.body]]
 name = "floor"
 shape = "plane"
 point = [0, 0, -0.1]
@@ -167,9 +166,8 @@ spheres = [[-1.2, 0, 0, 1], [0, 0, 0, 1], [1.2, 0, 0, 1]]
 positions = [[0, 0, -0.08]]
 velocity = [0, 0, -0.05]
 clump = "rod"
-orientation = [0, {}, 0]
-)"),
-                                                    angle)));
+orientation = [0, )" + std::to_string(angle) +
+                                        ", 0]\n"));
     auto s = started(c);
     const ClumpShape& shape = c.grain.clumps[0].shape;
     run_until(*s, 0.5);
@@ -208,6 +206,10 @@ clump = "drop"
   EXPECT_LT(norm(vector(of_clumps<3>(*s, "angular_velocity")[0])), tolerance(1e-9, 1e-3, 1e-3));
 }
 
+std::string list_of(const Vec3d& v) {
+  return "[" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + "],";
+}
+
 /// Rods and grains that fly at each other's centre.
 std::string swarm(const std::string& of_grains = "") {
   std::mt19937 rng(3);
@@ -219,21 +221,17 @@ std::string swarm(const std::string& of_grains = "") {
       for (int k = -1; k <= 1; ++k, ++n) {
         const Vec3d x{0.03 * i, 0.03 * j, 0.03 * k};
         const Vec3d v{-8 * x.x + 0.05 * u(rng), -8 * x.y + 0.05 * u(rng), -8 * x.z + 0.05 * u(rng)};
-        places[n % 2] += fmt::format(fmt::runtime("[{}, {}, {}],"), x.x, x.y, x.z);
-        speeds[n % 2] += fmt::format(fmt::runtime("[{}, {}, {}],"), v.x, v.y, v.z);
+        places[n % 2] += list_of(x);
+        speeds[n % 2] += list_of(v);
       }
-  return in_space(of_grains + fmt::format(fmt::runtime(R"([[clump]]
+  const auto fill = [&](int k) {
+    return "[[grain.fill]]\npositions = [" + places[k] + "]\nvelocities = [" + speeds[k] + "]\n";
+  };
+  return in_space(of_grains + R"([[clump]]
 name = "rod"
 spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1.2, 0.2, 0, 0.7]]
-[[grain.fill]]
-positions = [{}]
-velocities = [{}]
-clump = "rod"
-[[grain.fill]]
-positions = [{}]
-velocities = [{}]
-)"),
-                                          places[0], speeds[0], places[1], speeds[1]));
+)" + fill(0) + "clump = \"rod\"\n" +
+                  fill(1));
 }
 
 TEST(Clump, CollisionsKeepMomentaAndEnergy) {
