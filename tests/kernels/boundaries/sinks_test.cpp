@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bedload/parallel/loops.hpp"
 #include "kernels/boundaries/drop.hpp"
 #include "kernels/boundaries/orifice.hpp"
 #include "kernels/boundaries/sinks.hpp"
@@ -42,11 +43,12 @@ TEST(Sinks, TakeWhatIsBeyondASideOrWithinAnOutlet) {
       {test::body("box", {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4}), test::body("box", {0.6, 0, 0}, {1.5, 2, 3})},
       domain);
   std::vector<Vec3d> x{{0.1, 1, 1}, {0.3, 0.3, 0.3}, {0.7, 1, 1}, {1.2, 1, 1}, {0.5, 1, -0.2}, {0.5, 1, 3.1}};
-  std::vector<std::uint32_t> sink(x.size());
+  Buffer<Vec3d> places;
+  places.assign(x);
+  Buffer<std::uint32_t> sink(x.size());
   const auto mark = [&](bool sides) {
-    const SinkPass<Vec3d> pass{kOpen, outlets.view(), sides, all(x), all(sink)};
-    for (Index i = 0; i < x.size(); ++i) pass(i);
-    return sink;
+    for_each({0, Index(x.size())}, SinkPass<Vec3d>{kOpen, outlets.view(), sides, places, sink});
+    return sink.to_host();
   };
   using Marks = std::vector<std::uint32_t>;
   EXPECT_EQ(mark(true), (Marks{kStays, kOutlet, kOutlet + 1, kOutlet + 1, kLeftDomain + 4, kLeftDomain + 5}));
