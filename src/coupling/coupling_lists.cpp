@@ -13,13 +13,6 @@ using Place = std::remove_cvref_t<decltype(std::declval<const Store&>().x_list.s
 /// log2 of the lanes that share a row: rows are long, and four lanes read contiguous memory.
 unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
-struct InOrderPass {
-  Span<const Index> order;
-  Span<const Vec3d> x;
-  Span<Vec3d> in_order;
-  BL_HD void operator()(Index k) const { in_order[k] = x[order[k]]; }
-};
-
 /// Entries of a list, which are places in an order, become indices in the store.
 struct StoredIndexPass {
   Span<const Index> order;

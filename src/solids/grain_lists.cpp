@@ -34,13 +34,6 @@ struct ListedPlacesPass {
   BL_HD void operator()(Index i) const { out[i] = frame.listed(x[i]); }
 };
 
-struct InOrderPass {
-  Span<const Index> order;
-  Span<const Vec3d> x;
-  Span<Vec3d> in_order;
-  BL_HD void operator()(Index k) const { in_order[k] = x[order[k]]; }
-};
-
 /// Composes the order of a sort with what was before it: former indices as of the last lists.
 struct SourceIndexPass {
   Span<const Index> kept;  ///< of what moved between ranks; empty where nothing did

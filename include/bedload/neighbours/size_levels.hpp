@@ -17,6 +17,14 @@ struct ListOrder {
   BL_HD bool has_row(Index place) const { return place < own; }
 };
 
+/// Places in the order of lists.
+struct InOrderPass {
+  Span<const Index> order;
+  Span<const Vec3d> x;
+  Span<Vec3d> in_order;
+  BL_HD void operator()(Index k) const { in_order[k] = x[order[k]]; }
+};
+
 class SizeLevels {
  public:
   static constexpr int kMost = 8;
