@@ -78,6 +78,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"standing_wave/deep.toml", {11200, 0}},
       {"standing_wave/finite_depth.toml", {5600, 0}},
       {"still_bed/case.toml", {12 * 12 * 20, 600}},
+      {"still_bed_two_sizes/case.toml", {83 * 83 * 50, 640012, {"grains of 0.01 m"}}},
       {"stirred_tank/case.toml", {49680, 0, {"wall.body \"impeller\""}}},
       {"suspension_viscosity/case.toml", {60 * 60 * 62, 83}},
       {"suspension_viscosity/plates.toml", {60 * 60 * 82, 110}},
@@ -90,6 +91,9 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"taylor_green_lattice/re100.toml", {100 * 100, 0}},
       {"taylor_green_lattice/re1000.toml", {100 * 100, 0}},
       {"ten_cate/case.toml", {82 * 82 * 130, 1}},
+      {"two_size_packing/case.toml", {0, 103411}},
+      {"two_size_packing/one_size.toml", {0, 306}},
+      {"two_size_packing/resting.toml", {0, 26001}},
   };
   std::size_t found = 0;
   const fs::path cases = fs::path(BL_SOURCE_DIR) / "cases";
