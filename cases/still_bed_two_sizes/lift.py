@@ -35,6 +35,8 @@ def main():
     write_table(run / "lift.csv", NAMES, rows)
     table = np.array(rows)
     late = table[table[:, 0] >= START]
+    if len(late) == 0:
+        sys.exit(f"{run}: ends before {START:g} s")
     for k, size in enumerate(("small", "large"), 1):
         print(f"lift of {size} grains over rho g V {late[:, k].mean():.5f}, {late[:, k].min():.5f} to "
               f"{late[:, k].max():.5f}; fastest in any frame {table[:, k + 2].max():.3g} m/s")
