@@ -20,6 +20,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
   };
   const std::map<std::string, Count> expected{
       {"agitated_tube/case.toml", {9775, 0, {"wall.body \"agitator\""}}},
+      {"brazil_nut/case.toml", {0, 11089}},
       {"constant_porosity_block/block_065.toml", {9 * 9 * 60, 2112}},
       {"couette_suspension/case.toml", {1000, 746}},
       {"dam_break_impact/case.toml", {7200, 0}},
