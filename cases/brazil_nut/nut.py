@@ -6,8 +6,9 @@
 All places are means over two periods. The bed's speed at a height is the mean of the displacements, from one such mean
 to the next, of the beads within two diameters of the axis, as far up and down as the nut reaches. Compared are the mean
 speeds of the nut, and of a point that moves with the bed, from two bead diameters above where the nut lay to two below
-where its top is at the surface. Writes RUN_DIR/rise.csv with both, and RUN_DIR/nut.csv with height and place of the nut
-below the surface over time; prints the first.
+where its top is at the surface; `ratio_above` is their ratio from one radius of the nut above where it lay. Writes
+RUN_DIR/rise.csv with these, and RUN_DIR/nut.csv with height and place of the nut below the surface over time; prints
+the first.
 """
 
 import sys
@@ -20,7 +21,7 @@ from frames import Frames, case_of, write_table  # noqa: E402
 
 AXIS = 0.022  # x of the right cylinder, m; the left one is at -AXIS
 START = 0.5  # s, when the flow has formed
-RISE = ["time [s]", "nut_speed [m/s]", "bed_speed [m/s]", "ratio [-]", "from [m]", "to [m]"]
+RISE = ["time [s]", "nut_speed [m/s]", "bed_speed [m/s]", "ratio [-]", "ratio_above [-]"]
 NUT = ["time [s]", "height [m]", "surface [m]", "below_surface [-]"]  # top of the nut, in bead diameters
 
 
@@ -61,12 +62,18 @@ def main():
     below = (surface - z - radius[large]) / d
     write_table(run / "nut.csv", NUT, np.stack([times, z, surface, below], axis=1).tolist())
 
-    low, high = z[0] + 2 * d, np.median(surface) - radius[large] - 2 * d
-    nut = (high - low) / (passed(times, z, high) - passed(times, z, low))
     heights, speeds = bed_speed(x[:, right], times, radius[large], d)
-    steps = np.linspace(low, high, 200)
-    bed = 1 / np.mean(1 / np.interp(steps, heights, speeds))
-    row = [times[-1], nut, bed, nut / bed, low, high]
+    high = np.median(surface) - radius[large] - 2 * d
+
+    def rise(low):
+        """Mean speeds of nut and bed from a height to the highest one."""
+        steps = np.linspace(low, high, 200)
+        nut = (high - low) / (passed(times, z, high) - passed(times, z, low))
+        return nut, 1 / np.mean(1 / np.interp(steps, heights, speeds))
+
+    nut, bed = rise(z[0] + 2 * d)
+    nut_above, bed_above = rise(z[0] + radius[large])
+    row = [times[-1], nut, bed, nut / bed, nut_above / bed_above]
     write_table(run / "rise.csv", RISE, [row])
     for name, value in zip(RISE, row):
         print(f"{name:18} {value:.5g}")
