@@ -21,6 +21,7 @@ from frames import Frames, case_of, write_table  # noqa: E402
 
 AXIS = 0.022  # x of the right cylinder, m; the left one is at -AXIS
 START = 0.5  # s, when the flow has formed
+SPAN = 8  # frames, two periods: means over them are free of the leaps of the bed
 RISE = ["time [s]", "nut_speed [m/s]", "bed_speed [m/s]", "ratio [-]", "ratio_above [-]"]
 NUT = ["time [s]", "height [m]", "surface [m]", "below_surface [-]"]  # top of the nut, in bead diameters
 
