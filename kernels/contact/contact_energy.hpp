@@ -204,6 +204,10 @@ struct WallFlowPass {
             kept |= 1u << course.from;
             before = action(course.from, i), had = memory_energy(course.from);
             if (losses) lost[n] = losses.at_walls[i].of[course.from];
+          } else if (wear && dt > 0) {
+            const BodyPose& pose = contacts.poses[body];
+            wear.strike(body, pose, contacts.arm(pose, c.point), own.m, Vec3d(g.v[i]) - course.v_wall,
+                        Vec3d(course.at.n));
           }
           if (dt > 0)
             count({.body = body,

@@ -12,8 +12,10 @@ struct WearSums {
   WideSum normal;  ///< dissipated by normal force
   WideSum shear;   ///< by sliding and rolling
   WideSum time;    ///< of contact
+  WideSum cut;     ///< impact_cut of all impacts
   void add(const WearSums& other) {
     path.add(other.path), normal.add(other.normal), shear.add(other.shear), time.add(other.time);
+    cut.add(other.cut);
   }
 };
 template <>
@@ -46,6 +48,17 @@ struct WearMap {
   }
 };
 
+/// What an impact of mass m (kg) at velocity v (m/s), `into` of it into the wall, cuts, over a pressure, J: m
+/// v2 times Finnie's function of the angle to the wall, with vertical forces twice the horizontal ones
+/// [finnie60].
+BL_HD double impact_cut(double m, const Vec3d& v, double into) {
+  constexpr double K = 2;
+  if (!(into > 0)) return 0;
+  const double sin2 = square(into), cos2 = max_of(norm2(v) - sin2, 0.0);  // times v2
+  if (36 * sin2 > K * K * cos2) return m * K / 6 * cos2;
+  return m * (2 * std::sqrt(sin2 * cos2) - 6 / K * sin2);
+}
+
 struct WallWear {
   static constexpr double kTime = 1e-15;  ///< unit of times, s
   const WearMap* maps = nullptr;          ///< [bodies]; null: none of them wears
@@ -55,14 +68,23 @@ struct WallWear {
   /// r: from the body's centre to the contact, m; path: normal force times path, J; time: of contact, s.
   BL_HD void add(std::uint32_t body, const BodyPose& pose, const Vec3d& r, double path, double time,
                  const ContactLoss& loss) const {
-    const WearMap& map = maps[body];
-    if (!map.sums) return;
-    WearSums& at =
-        map.sums[map.patch(pose.centre + (pose.turned() ? pose.rotation.conjugate().rotate(r) : r))];
+    if (!maps[body].sums) return;
+    WearSums& at = sums(body, pose, r);
     at.path.add(whole(path / unit));
     at.normal.add(whole(loss.normal / unit));
     at.shear.add(whole(loss.tangential / unit));
     at.time.add(whole(time / kTime));
+  }
+  /// A grain of mass m (kg) begins to touch the body there, at velocity v to it (m/s); n: to the grain.
+  BL_HD void strike(std::uint32_t body, const BodyPose& pose, const Vec3d& r, double m, const Vec3d& v,
+                    const Vec3d& n) const {
+    if (maps[body].sums) sums(body, pose, r).cut.add(whole(impact_cut(m, v, -dot(v, n)) / unit));
+  }
+
+ private:
+  BL_HD WearSums& sums(std::uint32_t body, const BodyPose& pose, const Vec3d& r) const {
+    const WearMap& map = maps[body];
+    return map.sums[map.patch(pose.centre + (pose.turned() ? pose.rotation.conjugate().rotate(r) : r))];
   }
 };
 

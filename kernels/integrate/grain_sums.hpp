@@ -51,6 +51,11 @@ struct TotalsReduction {
     Value v{};
     return v;
   }
+  /// Half of what a pair in contact stores, J.
+  BL_HD double share(Index i, Index j, const ContactHistory& h) const {
+    const Sphere s = contacts.grains.sphere(i), o = contacts.grains.sphere(j);
+    return 0.5 * contacts.law_of(i, j).stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
+  }
   BL_HD Value operator()(Index i) const {
     Value t{};
     const GrainView& g = contacts.grains;
@@ -68,10 +73,8 @@ struct TotalsReduction {
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {
       if (!contacts.histories.touching[slot]) return;
       const ContactHistory h = contacts.histories[slot];
-      const Sphere o = g.sphere(j);
       t.sum[pairs] += 0.5;
-      t.sum[elastic] +=
-          0.5 * contacts.law_of(i, j).stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
+      t.sum[elastic] += share(i, j, h);
       t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
     });
     const WallMemories memory = walls.memories(i);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kernels/bodies/clumps.hpp"
 #include "kernels/contact/contact_loss.hpp"
 #include "kernels/contact/wall_pass.hpp"
 #include "kernels/stress/contact_stress.hpp"
@@ -143,32 +144,47 @@ struct GrainStressPass {
 };
 
 /// Sums at a point, per m3 of kernel: volume, mass, momentum 3, momentum times velocity 6 and volume times
-/// fabric 6 (xx, xy, xz, yy, yz, zz), force times the way to where it acts 9.
+/// fabric 6 (xx, xy, xz, yy, yz, zz), force times the way to where it acts 9. A clump has all of its mass and
+/// its velocity where its centre of mass is, from which forces on its grains act: what holds it together then
+/// has no stress, and its momentum balances as that of a grain.
 struct CoarseTerms {
   static constexpr int kVolume = 0, kMass = 1, kMomentum = 2, kFlow = 5, kFabric = 11, kStress = 17,
                        kSums = 26;
   GrainActions actions;
   MassPerR3 mass_per_r3;
   VolumePerR3 volume_per_r3;
+  ClumpView clumps{};  ///< empty without clumps
 
-  /// Of a contact of grain i: add(sum, value) of its terms; adds to its fabric.
+  /// From where the terms of a grain are: its centre, or that of its clump.
+  struct Origin {
+    Vec3d x, lever;  ///< m; from there to the centre of the grain
+    Index clump;     ///< kNone: without one
+  };
+  BL_HD Origin origin(Index i) const {
+    const Vec3d& x = actions.contacts.grains.x[i];
+    if (!clumps.clump || clumps.clump[i] == 0) return {x, {}, kNone};
+    const Vec3d lever = clumps.lever(i);
+    return {x - lever, lever, clumps.clump[i] - 1};
+  }
+  /// Of a contact of grain i, the way from its origin on: add(sum, value) of its terms; adds to its fabric.
   template <class Add>
   BL_HD static void contact(const Vec3d& force, const Vec3d& way, bool touch, double fabric[6], Add&& add) {
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) add(kStress + 3 * a + b, force[a] * way[b]);
     if (touch) products(way * (1 / std::sqrt(norm2(way))), 1, fabric);
   }
-  /// Of grain i itself.
+  /// Of grain i itself, or what it is of its clump, whose volume its contacts count with.
   template <class Add>
-  BL_HD void grain(Index i, const double fabric[6], Add&& add) const {
+  BL_HD void grain(Index i, Index clump, const double fabric[6], Add&& add) const {
     const double r3 = cube(double(actions.contacts.grains.radius[i]));
     const double m = mass_per_r3(i) * r3, volume = volume_per_r3(i) * r3;
-    const Vec3d v = Vec3d(actions.contacts.grains.v[i]);
+    const double whole = clump == kNone ? volume : volume * clumps.mass(clump) / m;
+    const Vec3d v = clump == kNone ? Vec3d(actions.contacts.grains.v[i]) : clumps.v[clump];
     double flow[6] = {};
     products(v, m, flow);
     add(kVolume, volume), add(kMass, m);
     for (int k = 0; k < 3; ++k) add(kMomentum + k, m * v[k]);
-    for (int k = 0; k < 6; ++k) add(kFlow + k, flow[k]), add(kFabric + k, volume * fabric[k]);
+    for (int k = 0; k < 6; ++k) add(kFlow + k, flow[k]), add(kFabric + k, whole * fabric[k]);
   }
 
  private:
@@ -196,10 +212,11 @@ struct LargestTerms {
       const double v = std::abs(value);
       out.v[sum] = max_of(out.v[sum], v < 1e300 ? v : 1e300);
     };
+    const CoarseTerms::Origin from = terms.origin(i);
     terms.actions.each(i, [&](const Vec3d& force, const Vec3d& way, bool touch) {
-      CoarseTerms::contact(force, way, touch, fabric, add);
+      CoarseTerms::contact(force, from.lever + way, touch, fabric, add);
     });
-    terms.grain(i, fabric, add);
+    terms.grain(i, from.clump, fabric, add);
     return out;
   }
   BL_HD void combine(Value& into, const Value& from) const {
@@ -216,24 +233,27 @@ struct SpreadPass {
   WideSum* sums;                     ///< [points][kSums]
 
   BL_HD void operator()(Index i) const {
-    const Vec3d x = terms.actions.contacts.grains.x[i];
-    const double R = terms.actions.contacts.grains.radius[i];
+    const CoarseTerms::Origin from = terms.origin(i);
+    const Vec3d x = from.x;
+    const double reach =
+        kernel.h + std::sqrt(norm2(from.lever)) + double(terms.actions.contacts.grains.radius[i]);
     bool near = false;
-    points.each_near(x, kernel.h + R, [&](Index, const Vec3d&) { near = true; });
+    points.each_near(x, reach, [&](Index, const Vec3d&) { near = true; });
     if (!near) return;
     double fabric[6] = {};
-    terms.actions.each(i, [&](const Vec3d& force, const Vec3d& way, bool touch) {
+    terms.actions.each(i, [&](const Vec3d& force, const Vec3d& to_point, bool touch) {
+      const Vec3d way = from.lever + to_point;
       double value[9] = {};
       CoarseTerms::contact(force, way, touch, fabric,
                            [&](int sum, double of) { value[sum - CoarseTerms::kStress] = of; });
-      points.each_near(x, kernel.h + R, [&](Index point, const Vec3d& d) {
+      points.each_near(x, reach, [&](Index point, const Vec3d& d) {
         const double W = kernel.along(d, way);
         for (int k = 0; k < 9; ++k) add(point, CoarseTerms::kStress + k, value[k] * W);
       });
     });
     points.each_near(x, kernel.h, [&](Index point, const Vec3d& d) {
       const double W = kernel.W(norm2(d));
-      terms.grain(i, fabric, [&](int sum, double value) { add(point, sum, value * W); });
+      terms.grain(i, from.clump, fabric, [&](int sum, double value) { add(point, sum, value * W); });
     });
   }
 

@@ -68,21 +68,20 @@ bool OpenBoundaries::grains_due(double t) const {
 
 /// Marks leaving particles in sink_ and tallies them; false if there are none.
 template <class P, class Mass>
-bool OpenBoundaries::find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass,
-                                  double t, const Clumps* clumps) {
-  const Range all{0, x.size};
+bool OpenBoundaries::find_leaving(OutletRegions& regions, Span<const P> x, Range owned, bool domain,
+                                  const Mass& mass, double t, const Clumps* clumps) {
   if (!domain && regions.geometry.surfaces().empty()) return false;
   sink_.resize(x.size);
-  for_each(all, SinkPass<P>{frame_, regions.geometry.view(), domain, x, sink_});
+  for_each({0, x.size}, SinkPass<P>{frame_, regions.geometry.view(), domain, x, sink_});
   if (clumps && clumps->any()) leave_together(regions, *clumps);
-  if (sum_over<1>(all, LeavingBody{sink_}).v[0] == 0) return false;
+  if (sum_over<1>(owned, LeavingBody{sink_}).v[0] == 0) return false;
   if (domain) {
-    const auto gone = sum_over<2 * kSides>(all, SideTally<Mass>{sink_, mass});
+    const auto gone = sum_over<2 * kSides>(owned, SideTally<Mass>{sink_, mass});
     for (std::uint32_t k = 0; k < kSides; ++k) regions.tally[k].add(gone.v[2 * k], gone.v[2 * k + 1], t);
   }
   const Span<const std::uint32_t> member = clumps ? clumps->members() : Span<const std::uint32_t>();
   for (std::uint32_t k = kSides; k < regions.tally.size(); ++k) {
-    const auto gone = sum_over<2>(all, SinkTally<Mass>{sink_, kLeftDomain + k, mass, member});
+    const auto gone = sum_over<2>(owned, SinkTally<Mass>{sink_, kLeftDomain + k, mass, member});
     regions.tally[k].add(gone.v[0], gone.v[1], t);
   }
   return true;
@@ -130,7 +129,8 @@ std::vector<Loss> OpenBoundaries::losses(const GrainStore& grains, double t) con
 
 void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
                            const Vec3d& gravity) {
-  if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass}, t)) {
+  if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), fluid.owned(), true, FluidMass{fluid.mass},
+                   t)) {
     find_all(fluid.owned().size(), StaysTest{sink_}, kept_);
     fluid.reorder(kept_);
   }
@@ -186,10 +186,14 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
 
 // -- grains --------------------------------------------------------------------------------------
 
-GrainRenewal OpenBoundaries::renew(GrainStore& grains, Clumps& clumps, double t) {
-  const Index before = grains.size();
+GrainRenewal OpenBoundaries::renew(GrainStore& grains, SolidSolver& solids, double t) {
+  Clumps& clumps = solids.clumps();
+  const Index before = grains.owned().size();
   const GrainMass mass{matter_.of(grains), grains.radius};
-  const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass, t, &clumps);
+  const bool fewer =
+      find_leaving(grains_out_, Span<const Vec3d>(grains.x), grains.owned(), false, mass, t, &clumps);
+  if (fewer) solids.let_go(grains, sink_, clump_sink_);
+  grains.drop_ghosts();
   if (fewer) {
     find_all(before, StaysTest{sink_}, source_index_);
     grains.reorder(source_index_);
@@ -216,7 +220,7 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, Clumps& clumps, double t)
       dropped_.resize(0);  // the first gives them away with the next lists
     else
       dropped_.assign(more);
-    const Index here = Index(dropped_.size());
+    const Index here = Index(dropped_.size()), clumps_before = clumps.store().size();
     grains.grow(kept + here);
     source_index_.grow(grains.size());
     const Clumps::Membership in = clumps.membership();
@@ -240,6 +244,7 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, Clumps& clumps, double t)
       if (more[k].clump > 0 && more[k].member == 0)
         arrivals.clumps[more[k].clump - 1].id = Id(next_grain_ + double(k) + 1);
     if (!arrivals.clumps.empty()) clumps.add(arrivals.clumps, grains, {kept, grains.size()});
+    solids.let_in(grains, {kept, grains.size()}, clumps_before);
     next_grain_ += double(more.size());
   }
   return {source_index_, before, true};

@@ -37,8 +37,9 @@ class OpenBoundaries {
   /// Removes the fluid that has left and inserts the layers that are due at time t. The lists of the fluid
   /// must be rebuilt afterwards.
   void renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t, const Vec3d& gravity);
-  /// Removes and inserts grains and whole clumps; their lists must be rebuilt with the result.
-  GrainRenewal renew(GrainStore& grains, Clumps& clumps, double t);
+  /// Removes and inserts grains and whole clumps, of which solids are told; their lists must be rebuilt with
+  /// the result. Ghosts are dropped.
+  GrainRenewal renew(GrainStore& grains, SolidSolver& solids, double t);
 
   /// Particles that have left the domain other than through outlets, by side, up to time t.
   std::vector<Loss> losses(const GrainStore& grains, double t) const;
@@ -67,10 +68,10 @@ class OpenBoundaries {
     std::vector<NewGrain> grains;  ///< those of a clump in the order of its spheres
     std::vector<NewClump> clumps;
   };
-  /// clumps: null for a phase without any.
+  /// x: of all particles, ghosts behind those that are `owned`. clumps: null for a phase without any.
   template <class P, class Mass>
-  bool find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass, double t,
-                    const Clumps* clumps = nullptr);
+  bool find_leaving(OutletRegions& regions, Span<const P> x, Range owned, bool domain, const Mass& mass,
+                    double t, const Clumps* clumps = nullptr);
   /// Marks the grains of clumps as their centres are.
   void leave_together(const OutletRegions& regions, const Clumps& clumps);
   Tally lost_fluid() const;  ///< through all sides

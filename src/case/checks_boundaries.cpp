@@ -86,17 +86,25 @@ void Checks::field(const std::string& path, const ProbeConfig& probe) const {
     if (there) fail(path + ".type", quoted(probe.type.name()), fmt::format("must be another with {}", what));
   };
   refuse(c.domain.sheared(), "domain.shear_rate");
-  refuse(c.grain.has_clumps() || !c.grain.rigid_fills().empty(), "clumps and rigid groups");
+  refuse(!c.grain.rigid_fills().empty(), "rigid groups");
+  double widest = c.grain.largest();
+  const auto look = [&](const ClumpConfig* clump, const std::vector<SizeClass>& sizes) {
+    if (!clump) return;
+    for (const SizeClass& size : sizes)
+      widest = std::max(widest, 2 * clump->shape.reach * size_range(size).second);
+  };
+  for (const GrainFill& fill : c.grain.fills) look(c.grain.clump_of(fill), fill.sizes);
+  for (const GrainInletConfig& inlet : c.grain_inlets) look(c.grain.clump_named(inlet.clump), inlet.sizes);
   double most = std::numeric_limits<double>::infinity();  // images are then at most one period away
   for (int k = 0; k < 3; ++k)
     if (c.domain.periodic[k]) most = std::min(most, 0.5 * (c.domain.max[k] - c.domain.min[k]));
-  if (const double least = 2 * c.grain.largest(); probe.radius < least * (1 - 1e-9) || probe.radius > most)
-    fail(
-        path + ".radius", fmt::format("{} m", probe.radius),
-        std::isinf(most)
-            ? fmt::format("must be >= {} m, two diameters of the largest grain", least)
-            : fmt::format("must be within {}..{} m, from two diameters of the largest grain to half a period",
-                          least, most));
+  const char* const what = widest > c.grain.largest() ? "clump" : "grain";
+  if (const double least = 2 * widest; probe.radius < least * (1 - 1e-9) || probe.radius > most)
+    fail(path + ".radius", fmt::format("{} m", probe.radius),
+         std::isinf(most)
+             ? fmt::format("must be >= {} m, two diameters of the largest {}", least, what)
+             : fmt::format("must be within {}..{} m, from two diameters of the largest {} to half a period",
+                           least, most, what));
 }
 
 void Checks::probes() const {

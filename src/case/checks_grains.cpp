@@ -149,12 +149,9 @@ void Checks::materials() const {
 void Checks::grain_energy() const {
   if (!c.grain.present && c.out.contacts != ContactFrames::none)
     fail("out.contacts", '"' + c.out.contacts.name() + '"', "must be \"none\" without [grain]");
-  const auto takes_grains = [](const OutletConfig& outlet) { return outlet.takes(Phase::grains); };
   for (const auto& [there, what] :
        {std::pair{!c.grain.present, "without [grain]"},
         {c.grain.fixed, "with grain.fixed"},
-        {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
-         "with inlets or outlets of grains, whose energies are not counted"},
         {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
     if (!there) continue;
     for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})

@@ -201,10 +201,11 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact, bool pa
     p("wear", &b.wear,
       {.meaning =
            "wear by grains: a map in frames wear/<name>.vtkhdf; the shape of the wall does not change"});
-    if (b.wear == WearLaw::archard || p.everything()) {
+    if (b.wear != WearLaw::none || p.everything()) {
       p("k_over_H", &b.k_over_H,
         {.unit = "1/Pa",
-         .meaning = "dimensionless wear coefficient of Archard's law over the hardness of the wall",
+         .meaning = "dimensionless wear coefficient of Archard's law over the hardness of the wall; of "
+                    "Finnie's, c/(psi K p)",
          .range = within(1e-18, 1e-9),
          .presence = required});
       p("wear_patch", &b.wear_patch,

@@ -68,8 +68,10 @@ std::vector<double> CoupledSimulation::field_sums(const ProbeConfig& p) {
   const GrainStore& g = state_.grains;
   const FieldPoints points = points_of_field(p, state_.frame);
   const CoarseKernel kernel(p.radius);
+  const Clumps& clumps = std::as_const(stepper_).solids().clumps();
   const CoarseTerms terms{std::as_const(stepper_).solids().actions(g, state_.poses_now()),
-                          state_.matter.of(g), state_.matter.volume_of(g)};
+                          state_.matter.of(g), state_.matter.volume_of(g),
+                          clumps.any() ? clumps.view() : ClumpView{}};
   const LargestTerms largest{terms};
   const auto most = all_reduce(reduce(g.owned(), largest),
                                [&](auto& into, const auto& of_rank) { largest.combine(into, of_rank); });

@@ -1,5 +1,7 @@
 #include "src/solids/energy_books.hpp"
 
+#include "bedload/parallel/reductions.hpp"
+#include "kernels/boundaries/openings_energy.hpp"
 #include "kernels/integrate/grain_kick.hpp"
 #include "src/solids/solid_solver.hpp"
 
@@ -9,6 +11,9 @@ namespace {
 constexpr const char* kTerms[EnergyFlow::kTerms] = {"dissipated_normal",  "dissipated_sliding",
                                                     "dissipated_rolling", "work_walls",
                                                     "work_gravity",       "work_fluid"};
+constexpr const char *kIn = "grain_energy_in", *kOut = "grain_energy_out";
+/// Of what all ranks have.
+Range of_first_rank(Range all) { return Context::current().rank() == 0 ? all : Range{}; }
 std::string name_of(int term) { return std::string("grain_") + kTerms[term]; }
 
 }  // namespace
@@ -20,6 +25,9 @@ std::vector<Quantity> EnergyBooks::terms(double energy) const {
     out.push_back({name_of(k), "J", sum_.of[k]});
     residual += k < EnergyFlow::walls ? sum_.of[k] : -sum_.of[k];
   }
+  out.push_back({kIn, "J", in_});
+  out.push_back({kOut, "J", out_});
+  residual += out_ - in_;
   out.push_back({"grain_energy_residual", "J", residual});
   return out;
 }
@@ -27,6 +35,8 @@ std::vector<Quantity> EnergyBooks::terms(double energy) const {
 void EnergyBooks::save(std::vector<Quantity>& scalars) const {
   scalars.push_back({"grain_energy_counted", "-", begun_ ? 1.0 : 0.0});
   scalars.push_back({"grain_energy_start", "J", start_});
+  scalars.push_back({kIn, "J", in_});
+  scalars.push_back({kOut, "J", out_});
   for (int k = 0; k < EnergyFlow::kTerms; ++k) scalars.push_back({name_of(k), "J", sum_.of[k]});
 }
 
@@ -34,6 +44,8 @@ void EnergyBooks::load(const std::vector<Quantity>& scalars) {
   for (const Quantity& q : scalars) {
     if (q.name == "grain_energy_counted") begun_ = q.value != 0;
     if (q.name == "grain_energy_start") start_ = q.value;
+    if (q.name == kIn) in_ = q.value;
+    if (q.name == kOut) out_ = q.value;
     for (int k = 0; k < EnergyFlow::kTerms; ++k)
       if (q.name == name_of(k)) sum_.of[k] = q.value;
   }
@@ -79,6 +91,29 @@ void SolidSolver::count_pair_flows(const GrainStore& g, double dt, const OpenLos
 
 void SolidSolver::choose_flow_law() {
   with_contact_law(parameters_.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_flow_law<Law>(); });
+}
+
+void SolidSolver::let_go(const GrainStore& g, Span<const std::uint32_t> sink,
+                         Span<const std::uint32_t> of_clumps) {
+  if (!books_ || !books_->begun()) return;
+  const WallContacts walls = wall_contacts(g, nullptr, 0);
+  books_->add_out(
+      sum_over<1>(g.owned(), LeavingEnergy{{contact_pass(g, 0), walls, clumps_.of_grains()}, sink}).v[0]);
+  if (clumps_.any())
+    books_->add_out(sum_over<1>(of_first_rank(clumps_.store().owned()),
+                                ClumpMotionEnergy{{clumps_.view(), frame_}, 0, of_clumps})
+                        .v[0]);
+  if (spectra_) for_each(g.owned(), EndContactsPass{contact_pass(g, 0), walls, sink, spectra_->view()});
+}
+
+void SolidSolver::let_in(const GrainStore& g, Range come, Index clumps) {
+  if (!books_ || !books_->begun()) return;
+  const GrainView grains = view(g);
+  books_->add_in(sum_over<1>(come, MotionEnergy{grains, clumps_.of_grains()}).v[0]);
+  if (clumps_.any())
+    books_->add_in(sum_over<1>(of_first_rank({0, clumps_.store().size() - clumps}),
+                               ClumpMotionEnergy{{clumps_.view(), frame_}, clumps})
+                       .v[0]);
 }
 
 void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick, int substeps) {

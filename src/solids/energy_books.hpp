@@ -18,9 +18,12 @@ class EnergyBooks {
   explicit EnergyBooks(double most) : most_(most), all_(2) {}
   bool begun() const { return begun_; }
   /// Begins with so much energy of grains, J.
-  void begin(double energy) { begun_ = true, start_ = energy, sum_ = EnergyFlow::zero(); }
+  void begin(double energy) { forget(), begun_ = true, start_ = energy; }
   /// Until grains move.
-  void forget() { begun_ = false, sum_ = EnergyFlow::zero(); }
+  void forget() { begun_ = false, sum_ = EnergyFlow::zero(), in_ = out_ = 0; }
+  /// Grains have come in or left with so much energy, J.
+  void add_in(double energy) { in_ += energy; }
+  void add_out(double energy) { out_ += energy; }
 
   /// Sizes what an advance needs; drag: whether the fluid gives impulses.
   void begin_advance(std::size_t slots, std::size_t wall_slots, Index grains, Index clumps, bool drag) {
@@ -62,7 +65,8 @@ class EnergyBooks {
  private:
   double most_;  ///< J
   bool begun_ = false;
-  double start_ = 0;  ///< J
+  double start_ = 0;         ///< J
+  double in_ = 0, out_ = 0;  ///< of grains that have come in, and that have left, J
   EnergyFlow sum_ = EnergyFlow::zero();
   Buffer<EnergyFlow> flows_, of_clumps_;  ///< [grains], [clumps]
   Buffer<EnergyFlow> all_;                ///< sums of both

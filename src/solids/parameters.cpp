@@ -37,7 +37,7 @@ ContactLaw law_between(const GrainMaterial& material, const WallBody& body, cons
 WearGrid patches_of(const WallBody& body, const Config& config) {
   if (body.wear == WearLaw::none) return {};
   const WearPatches patches(body, config.domain, config.grain.largest());
-  WearGrid grid{.lo = patches.lo, .size = patches.size, .k_over_H = body.k_over_H};
+  WearGrid grid{.lo = patches.lo, .size = patches.size, .k_over_H = body.k_over_H, .law = body.wear};
   for (int k = 0; k < 3; ++k) grid.count[k] = int(patches.count[k]);
   return grid;
 }

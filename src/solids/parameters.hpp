@@ -31,7 +31,8 @@ struct WearGrid {
   Vec3d lo;                    ///< m
   double size = 0;             ///< m; 0: wear is not asked for
   std::array<int, 3> count{};  ///< along x, y, z
-  double k_over_H = 0;         ///< of Archard's law, 1/Pa
+  double k_over_H = 0;         ///< by which the law multiplies its sum, 1/Pa
+  WearLaw law = WearLaw::none;
   bool wears() const { return size > 0; }
 };
 

@@ -159,6 +159,10 @@ class SolidSolver {
   GrainTotals totals(const GrainStore& grains) const;
   /// Where energy has gone since grains began to move; empty if the case does not ask.
   std::vector<Quantity> energy_terms(const GrainStore& grains) const;
+  /// Before grains and clumps leave, whose sinks are not kStays: their energy, and the contacts that end.
+  void let_go(const GrainStore& grains, Span<const std::uint32_t> sink, Span<const std::uint32_t> of_clumps);
+  /// These grains, and the clumps from this one on, have come in.
+  void let_in(const GrainStore& grains, Range come, Index clumps);
   void save(std::vector<Quantity>& scalars) const;
   void load(const std::vector<Quantity>& scalars);
   /// Of what contacts have dissipated; null if the case does not ask.

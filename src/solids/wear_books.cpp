@@ -52,24 +52,27 @@ HostStore WearBooks::frame(int body, const std::string& name, const RigidMotion&
   const std::vector<WearSums> sums = everywhere(sums_[std::size_t(body)]);
   std::vector<Vec3d> position;
   std::vector<std::uint32_t> id;
-  std::vector<double> path, normal, shear, time, volume, depth;
+  std::vector<double> path, normal, shear, time, cut, volume, depth;
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (!any(sums[k].path) && !any(sums[k].normal) && !any(sums[k].shear) && !any(sums[k].time)) continue;
+    if (!any(sums[k].path) && !any(sums[k].normal) && !any(sums[k].shear) && !any(sums[k].time) &&
+        !any(sums[k].cut))
+      continue;
     position.push_back(pose.place(map.middle(int(k))));
     id.push_back(std::uint32_t(k));
     path.push_back(sums[k].path.value() * unit_);
     normal.push_back(sums[k].normal.value() * unit_);
     shear.push_back(sums[k].shear.value() * unit_);
     time.push_back(sums[k].time.value() * WallWear::kTime);
-    volume.push_back(grid.k_over_H * path.back());
+    cut.push_back(sums[k].cut.value() * unit_);
+    volume.push_back(grid.k_over_H * (grid.law == WearLaw::finnie ? cut : path).back());
     depth.push_back(volume.back() / square(grid.size));
   }
   return {name,
           id.size(),
           {array_of("position", "m", position), array_of("id", "-", id), array_of("force_path", "N m", path),
            array_of("normal_energy", "J", normal), array_of("shear_energy", "J", shear),
-           array_of("contact_time", "s", time), array_of("wear_volume", "m3", volume),
-           array_of("wear_depth", "m", depth)}};
+           array_of("contact_time", "s", time), array_of("cutting_energy", "J", cut),
+           array_of("wear_volume", "m3", volume), array_of("wear_depth", "m", depth)}};
 }
 
 void WearBooks::save(std::vector<HostStore>& stores) const {

@@ -19,7 +19,7 @@ class WearBooks {
   /// Begins anew.
   void forget();
   /// Patches of a body that grains have met, where it is now: arrays position, id, force_path, normal_energy,
-  /// shear_energy, contact_time, wear_volume, wear_depth.
+  /// shear_energy, contact_time, cutting_energy, wear_volume, wear_depth.
   HostStore frame(int body, const std::string& name, const RigidMotion& pose) const;
   /// Adds a store "wear" of all bodies.
   void save(std::vector<HostStore>& stores) const;

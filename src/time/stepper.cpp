@@ -339,8 +339,7 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
     walls_moved_ = 0;
   }
   if (grains) {
-    grains_.drop_ghosts();
-    solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, solid_solver_->clumps(), clock_.time));
+    solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, *solid_solver_, clock_.time));
   } else if (fluid && coupled()) {
     solid_solver_->regroup(grains_, grain_grid_);
   }

@@ -79,8 +79,37 @@ TEST(GrainInlet, OfUnlikeGrainsGoesOnBitForBit) {
   expect_restart_is_bit_equal(*s, config, 200);
 }
 
+/// Grains that come in and leave do so with their energy, and with what their contacts have dissipated.
+void expect_closed_books(Simulation& s) {
+  const auto d = s.diagnostics();
+  double dissipated = 0, booked = 0, count = 0;
+  for (const char* how : {"normal", "sliding", "rolling"})
+    dissipated += reading(d, std::string("grain_dissipated_") + how);
+  const double in = reading(d, "grain_energy_in"), out = reading(d, "grain_energy_out");
+  EXPECT_GT(in, 0.1 * dissipated);
+  EXPECT_GT(out, 0.1 * dissipated);
+  EXPECT_LT(std::abs(reading(d, "grain_energy_residual")), 5e-3 * dissipated);
+  for (const auto& row : s.spectra())
+    for (const Quantity& q : row) {
+      if (q.name.ends_with("_energy")) booked += q.value;
+      if (q.name.ends_with("_count")) count += q.value;
+    }
+  EXPECT_GT(count, 50);
+  for (const HostStore& store : s.save().stores) {  // contacts that go on
+    if (const HostArray* pairs = store.find("loss"))
+      for (std::size_t k = 0; k < 2 * store.count; ++k) booked += pairs->as<double>()[k];
+    if (const HostArray* at_walls = store.find("wall_losses"))
+      for (std::size_t i = 0; i < store.count; ++i)
+        for (std::uint32_t k = 0; k < 2 * store.find("wall_contacts")->as<std::uint32_t>()[i]; ++k)
+          booked += at_walls->as<double>()[at_walls->components * i + k];
+  }
+  EXPECT_NEAR(booked / dissipated, 1, 1e-6);
+}
+
+const std::string kWithBooks = "every = 1\nenergy = true\nspectra = true\n";
+
 TEST(GrainInlet, GoesOnBitForBitAfterARestart) {
-  const Config config = config_of(kHopper + R"(
+  const Config config = config_of(with(kHopper, "every = 1\n", kWithBooks) + R"(
 [[outlet]]
 name = "foot"
 phase = "grains"
@@ -97,6 +126,7 @@ max = [0.05, 0.05, 0.01]
             reading(d, "grain_inlet_feed_count"));
   EXPECT_NEAR(reading(d, "grain_mass") + reading(d, "outlet_foot_grain_mass"),
               reading(d, "grain_inlet_feed_mass"), 1e-6 * reading(d, "grain_inlet_feed_mass"));
+  expect_closed_books(*s);
 }
 
 /// Contacts of the grains that stay carry over when another is taken out: a bed that forgot its friction
@@ -152,7 +182,9 @@ max = [0.06, 0.03, 0.03]
 
 /// Rods and single grains fall into a hopper together and are taken out below.
 TEST(GrainInlet, DropsWholeClumps) {
-  const Config config = config_of(with(kHopper, "rate = 400", "rate = 300\nclump = \"rod\"") + R"(
+  const Config config =
+      config_of(with(with(kHopper, "rate = 400", "rate = 300\nclump = \"rod\""), "every = 1\n", kWithBooks) +
+                R"(
 [[clump]]
 name = "rod"
 spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
@@ -204,6 +236,7 @@ max = [0.05, 0.05, 0.01]
     ASSERT_EQ(all.size(), 3u) << id;
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(norm(all[k + 1] - all[k]) / step, 1, 1e-4) << id;
   }
+  expect_closed_books(*s);
   expect_restart_is_bit_equal(*s, config, 200);
 }
 

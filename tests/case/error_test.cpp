@@ -218,8 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:26: out.spectra_sizes = [0.002, 0.001] must be up to 7 diameters in rising order"},
         Wrong{"[grain]\nd = 0.002", "wear = \"archard\"\n[grain]\nd = 0.002",
               "dam.toml:10: wall.body.k_over_H must be given (dimensionless wear coefficient of Archard's "
-              "law over "
-              "the hardness of the wall, 1/Pa)"},
+              "law over the hardness of the wall; of Finnie's, c/(psi K p), 1/Pa)"},
         Wrong{"[grain]\nd = 0.002",
               "wear = \"archard\"\nk_over_H = 1e-13\nwear_patch = 1e-5\n[grain]\nd = 0.002",
               "dam.toml:17: wall.body.wear_patch = 1e-05 m must be larger: the map of the body has 4e+12 "

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bedload/case/read.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
@@ -53,7 +54,10 @@ struct Heap {
   double mass(std::size_t i) const { return volume(i) * (i % 5 == 0 ? 7800 : config.grain.rho); }
   /// Lucy's function at a point, from grain i.
   double W(std::size_t i, const Vec3d& at) const {
-    const double q = norm(frame_of(config).separation(at, setup.grains.x[i])) / kWidth;
+    return kernel(frame_of(config).separation(at, setup.grains.x[i]));
+  }
+  static double kernel(const Vec3d& from) {
+    const double q = norm(from) / kWidth;
     return q < 1 ? 105 / (16 * M_PI * cube(kWidth)) * (1 + 3 * q) * cube(1 - q) : 0;
   }
 };
@@ -101,6 +105,24 @@ TEST(SmallFieldProbe, IsTheSumOfTheGrainsAround) {
   EXPECT_TRUE(std::isnan(reading(far, "granular_temperature")));
 }
 
+/// By differences over points, Pa/m.
+Vec3d divergence_of_stress(Simulation& s, const Vec3d& at) {
+  constexpr double kStep = 0.004 * kWidth;
+  Vec3d divergence;
+  for (int b = 0; b < 3; ++b) {
+    Vec3d along;
+    along[b] = 4 * kStep;
+    const auto line = s.measure(field(at - 0.5 * along, {along}, {5}));
+    for (int a = 0; a < 3; ++a) {
+      const auto at_point = [&](int n) {
+        return reading(line, std::string("contact_stress_") + "xyz"[a] + "xyz"[b] + "_" + std::to_string(n));
+      };
+      divergence[a] += (at_point(0) - 8 * at_point(1) + 8 * at_point(3) - at_point(4)) / (12 * kStep);
+    }
+  }
+  return divergence;
+}
+
 /// div sigma = sum of F W over the grains, F their contact forces, farther than the kernel reaches from the
 /// floor.
 TEST(SmallFieldProbe, BalancesTheForcesOfContacts) {
@@ -108,26 +130,87 @@ TEST(SmallFieldProbe, BalancesTheForcesOfContacts) {
   const HostStore grains = heap.s->snapshot("grains");
   EXPECT_FALSE(grains.find("contact_stress")) << "not asked for";
   const std::vector<Vec3d> force = vectors(grains, "contact_force");
-  constexpr double kStep = 0.004 * kWidth;
   for (const Vec3d& at : {Vec3d{0.001, 0.0015, 0.0155}, {0.048, 0.003, 0.02}}) {
-    Vec3d expected, divergence;
+    Vec3d expected;
     double magnitude = 0;
     for (std::size_t i = 0; i < heap.size(); ++i)
       expected += heap.W(i, at) * force[i], magnitude += heap.W(i, at) * norm(force[i]);
     ASSERT_GT(norm(expected), 0.01 * magnitude);
-    for (int b = 0; b < 3; ++b) {
-      Vec3d along;
-      along[b] = 4 * kStep;
-      const auto line = heap.s->measure(field(at - 0.5 * along, {along}, {5}));
-      for (int a = 0; a < 3; ++a) {
-        const auto at_point = [&](int n) {
-          return reading(line,
-                         std::string("contact_stress_") + "xyz"[a] + "xyz"[b] + "_" + std::to_string(n));
-        };
-        divergence[a] += (at_point(0) - 8 * at_point(1) + 8 * at_point(3) - at_point(4)) / (12 * kStep);
-      }
+    // round-off of forces in mixed precision
+    EXPECT_LT(norm(divergence_of_stress(*heap.s, at) - expected), 1e-6 * magnitude);
+  }
+}
+
+/// Three rods across each other and a grain, across the periods: a clump counts where its centre of mass is.
+TEST(SmallFieldProbe, BalancesClumpsAsWholes) {
+  std::vector<std::string> warnings;
+  const Config c = read_case_text(R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.06]
+periodic = [true, true, true]
+[[clump]]
+name = "rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
+density = 2000
+[grain]
+d = 0.004
+E = 1e6
+[[grain.fill]]
+positions = [[0.0005, 0.0595, 0.03], [0.0011, 0.0595, 0.0271]]
+velocities = [[0.1, 0, 0], [0, 0.2, -0.1]]
+spins = [[0, 10, 20], [0, 0, -30]]
+clump = "rod"
+orientation = [0, 0, 0]
+[[grain.fill]]
+positions = [[0.0019, 0.0599, 0.0329]]
+velocities = [[0, 0, 0.3]]
+clump = "rod"
+orientation = [0, 0, 90]
+[[grain.fill]]
+positions = [[0.0019, 0.0594, 0.0363]]
+velocities = [[0.1, 0.1, 0.1]]
+[time]
+end = 1
+[out]
+every = 1
+)",
+                                  "rods.toml", {}, warnings);
+  auto s = started(c);
+  const HostStore grains = s->snapshot("grains");
+  const auto force = vectors(grains, "contact_force");
+  const auto* clump = grains.find("clump")->as<std::uint32_t>();
+  const auto ids = grains.find("id")->as<std::uint32_t>();
+  struct Whole {
+    Vec3d x, v, force;
+    double rho;
+  };
+  std::vector<Whole> all;
+  for (const GrainFill& fill : c.grain.fills)
+    for (std::size_t k = 0; k < fill.positions.size(); ++k)
+      all.push_back({fill.positions[k], fill.velocities[k], {}, fill.clump.empty() ? c.grain.rho : 2000});
+  int touched = 0;
+  for (std::size_t i = 0; i < grains.count; ++i) {
+    all[clump[i] > 0 ? clump[i] - 1 : 3].force += force[ids[i]];
+    touched += norm(force[ids[i]]) > 0;
+  }
+  ASSERT_EQ(touched, 8);
+  const double each = M_PI / 6 * cube(0.004), close = tolerance(1e-12, 1e-6, 1e-6);
+  for (const Vec3d& at : {Vec3d{0.002, 0.001, 0.031}, {0.058, 0.057, 0.034}}) {
+    const auto found = s->measure(field(at));
+    double volume = 0, mass = 0, magnitude = 0;
+    Vec3d momentum, expected;
+    for (const Whole& w : all) {
+      const double W = Heap::kernel(frame_of(c).separation(at, w.x));
+      volume += each * W, mass += w.rho * each * W, momentum += w.rho * each * W * w.v;
+      expected += W * w.force, magnitude += W * norm(w.force);
     }
-    EXPECT_LT(norm(divergence - expected), 1e-6 * magnitude);  // round-off of forces in mixed precision
+    EXPECT_NEAR(reading(found, "solid_fraction") / volume, 1, close);
+    EXPECT_NEAR(reading(found, "density") / mass, 1, close);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(reading(found, std::string("velocity_") + "xyz"[k]), momentum[k] / mass, close);
+    ASSERT_GT(norm(expected), 0.01 * magnitude);
+    EXPECT_LT(norm(divergence_of_stress(*s, at) - expected), 2e-6 * magnitude);
   }
 }
 

@@ -230,6 +230,28 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   EXPECT_EQ(bins[0][17].name, "grain_1_on_plane_normal_count");
 }
 
+/// By m U^2 (sin 2a - 3 sin^2 a), for tan a > 1/3 m U^2 cos^2 a / 3, each contact once [finnie60].
+TEST(GrainEnergy, ImpactsCutByTheirAngle) {
+  for (const double degrees : {2.0, 15.0, 19.0, 45.0, 90.0}) {
+    const double a = degrees * M_PI / 180, U = 0.2, factor = 1e-11;
+    GrainBench b;
+    b.plane({0, 0, -0.01}, {0, 0, 1});
+    b.config.wall.bodies[0].wear = "finnie", b.config.wall.bodies[0].k_over_H = factor;
+    b.config.wall.bodies[0].wear_patch = 0.01;
+    b.add({0, 0, -0.01 + 1.0001 * b.R()}, U * Vec3d{std::cos(a), 0, -std::sin(a)});
+    b.start();
+    const double duration = b.contact_time(U * std::sin(a), true);
+    b.run(duration / 40, 120);
+    ASSERT_GT(b.velocity(0).z, 0) << degrees;
+    const double f =
+        std::tan(a) > 1 / 3.0 ? square(std::cos(a)) / 3 : std::sin(2 * a) - 3 * square(std::sin(a));
+    const double energy = b.mass() * U * U * f, close = 1e-5 * b.mass() * U * U;
+    const HostStore map = b.solver->wear()->frame(0, "wear/plane", RigidMotion{});
+    EXPECT_NEAR(over_patches(map, "cutting_energy"), energy, close) << degrees;
+    EXPECT_NEAR(over_patches(map, "wear_volume"), factor * energy, factor * close) << degrees;
+  }
+}
+
 /// A bed in a turning drum. What turns the drum is the moment of its weight.
 TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   const double rate = 12, dt = 2e-5, radius = 0.0125, length = 0.0065, turn = 2 * M_PI / rate;

@@ -100,11 +100,12 @@ inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
 });
 
 /// wall.body.wear
-enum class WearLaw { none, archard };
+enum class WearLaw { none, archard, finnie };
 template <>
 inline constexpr auto kNames<WearLaw> = std::to_array<Named<WearLaw>>({
     {WearLaw::none, "none", "no wear"},
     {WearLaw::archard, "archard", "volume k/H times normal force times sliding path [archard53]"},
+    {WearLaw::finnie, "finnie", "cutting by impacts, by their energy and angle [finnie60]"},
 });
 
 // -- openings ------------------------------------------------------------------------------------

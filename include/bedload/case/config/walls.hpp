@@ -94,7 +94,7 @@ struct WallBody {
   double E = 0;                                ///< Young's modulus, Pa; 0: grain.E
   double nu = std::numeric_limits<double>::infinity();    ///< Poisson's ratio (default grain.nu)
   Chosen<WearLaw> wear = WearLaw::none;        ///< by grains
-  double k_over_H = 0;                         ///< wear coefficient over hardness, 1/Pa
+  double k_over_H = 0;                         ///< of the law of wear, 1/Pa
   double wear_patch = 0;                       ///< edge of the patches, m; 0: d_max of the grains
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
