@@ -6,8 +6,10 @@
 
 #if defined(__CUDACC__)
 #define BL_HD __host__ __device__ __forceinline__
+#define BL_INLINE
 #else
 #define BL_HD inline __attribute__((always_inline))
+#define BL_INLINE __attribute__((always_inline))  ///< of a lambda in a loop of the CPU
 #endif
 
 namespace bedload {

@@ -106,13 +106,13 @@ BL_HD Sources<Field...> sources_of(const Field&... field) {
 
 template <class Pass, class Sum, class J, class R, class N>
 BL_HD void add_pair(const Pass& pass, Sum& sum, const J& j, const R& r, const N& r2, const N& weight) {
-  pass.sources().load(j, [&](const auto&... of_j) { pass.pair(sum, r, r2, weight, of_j...); });
+  pass.sources().load(j, [&](const auto&... of_j) BL_INLINE { pass.pair(sum, r, r2, weight, of_j...); });
 }
 
 /// Of the second of two lists.
 template <class Pass, class Sum, class J, class R, class N>
 BL_HD void add_wall_pair(const Pass& pass, Sum& sum, const J& j, const R& r, const N& r2) {
-  pass.wall_sources().load(j, [&](const auto&... of_j) { pass.wall_pair(sum, r, r2, of_j...); });
+  pass.wall_sources().load(j, [&](const auto&... of_j) BL_INLINE { pass.wall_pair(sum, r, r2, of_j...); });
 }
 
 /// A pass of which several lanes can share a row.
@@ -245,7 +245,7 @@ struct ListRow {
   }
 #if !BL_CUDA
   template <class F>
-  void in_packs(Index i, const Index* entry, int left, F& f) const {
+  [[gnu::always_inline]] void in_packs(Index i, const Index* entry, int left, F& f) const {
     for (; left >= kLanes; left -= kLanes, entry += kLanes) {
       const PackIndex j{entry};
       const auto sources = separation.b[j];
@@ -301,7 +301,7 @@ struct ListLoop {
     const Lane lane(thread, bits);
     const Index i = rows ? rows[lane.row] : begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, j, r, r2, weight); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) BL_INLINE { add_pair(pass, sum, j, r, r2, weight); });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -336,8 +336,8 @@ struct TwoListLoop {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, j, r, r2, weight); });
-    wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { add_wall_pair(pass, sum, j, r, r2); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) BL_INLINE { add_pair(pass, sum, j, r, r2, weight); });
+    wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) BL_INLINE { add_wall_pair(pass, sum, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };
