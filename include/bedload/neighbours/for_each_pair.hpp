@@ -301,7 +301,9 @@ struct ListLoop {
     const Lane lane(thread, bits);
     const Index i = rows ? rows[lane.row] : begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) BL_INLINE { add_pair(pass, sum, j, r, r2, weight); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) BL_INLINE {
+      add_pair(pass, sum, j, r, r2, weight);
+    });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -336,8 +338,11 @@ struct TwoListLoop {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) BL_INLINE { add_pair(pass, sum, j, r, r2, weight); });
-    wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) BL_INLINE { add_wall_pair(pass, sum, j, r, r2); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) BL_INLINE {
+      add_pair(pass, sum, j, r, r2, weight);
+    });
+    wall_row(i, lane,
+             [&](auto j, const auto& r, auto r2, auto) BL_INLINE { add_wall_pair(pass, sum, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };
