@@ -46,6 +46,9 @@ function(bedload_variant precision backend)
     target_compile_definitions(
       bedload_${variant} PUBLIC BL_CUDA=0 THRUST_DEVICE_SYSTEM=THRUST_DEVICE_SYSTEM_OMP)
     target_compile_options(bedload_${variant} PUBLIC -fno-math-errno)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # one copy of the loop over packs: half as long to compile, as fast
+      target_compile_options(bedload_${variant} PRIVATE -fno-split-loops)
+    endif()
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
       # GCC 12's SLP vectoriser drops the rounding in double(float(x))
       target_compile_options(bedload_${variant} PUBLIC -fno-tree-slp-vectorize)

@@ -244,27 +244,25 @@ struct ListRow {
     if (kFades<Pass> || r2 < range2) f(j, r, r2, Real(source.weight));
   }
 #if !BL_CUDA
+  // One call of f for whole packs and the rest: f is long, and inlined.
   template <class F>
   [[gnu::always_inline]] void in_packs(Index i, const Index* entry, int left, F& f) const {
-    for (; left >= kLanes; left -= kLanes, entry += kLanes) {
+    Index rest[kLanes];
+    for (; left > 0; left -= kLanes, entry += kLanes) {
+      Pack away{};
+      if (left < kLanes) {  // lanes without an entry repeat the last one, out of reach
+        for (int l = 0; l < kLanes; ++l) {
+          rest[l] = entry[l < left ? l : left - 1];
+          if (l >= left) away.v[l] = 100 * std::sqrt(range2);
+        }
+        entry = rest;
+      }
       const PackIndex j{entry};
       const auto sources = separation.b[j];
-      const auto r = separation(i, sources);
+      auto r = separation(i, sources);
+      r.x += away;
       f(j, r, norm2(r), sources.weight);
     }
-    if (left == 0) return;
-    // lanes without an entry repeat the last one, out of reach
-    Index rest[kLanes];
-    Pack away{};
-    for (int l = 0; l < kLanes; ++l) {
-      rest[l] = entry[l < left ? l : left - 1];
-      if (l >= left) away.v[l] = 100 * std::sqrt(range2);
-    }
-    const PackIndex j{rest};
-    const auto sources = separation.b[j];
-    auto r = separation(i, sources);
-    r.x += away;
-    f(j, r, norm2(r), sources.weight);
   }
 #endif
 };
