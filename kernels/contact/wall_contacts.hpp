@@ -59,15 +59,21 @@ class SurfaceContacts {
       : memories_(memories), surfaces_(surfaces), remembered_(memories.count()), capacity_(capacity) {}
 
   /// Adds the contacts of a sphere at x with surface s in this pose. radius: of the sphere, m; what it has
-  /// touched acts on it up to `reach` (m) from its centre. merge: see SurfaceSet::each_closest_point.
+  /// touched acts on it up to `reach` (m) from its centre. merge: see MeshSearch.
   BL_HD void seek(const SurfaceSet& walls, Index s, const BodyPose& pose, const Frame& frame, const Vec3d& x,
                   double merge, double radius, double reach) {
     const SurfaceView view(walls.surfaces[s], pose, frame, x);
     const double farthest = Kinds::reach(view.surface, reach);
     if (Kinds::kTracked && view.beyond(walls, farthest))
       return;  // for other kinds the closest point costs no more than this test
+    MeshSearch search(merge);
+    if (view.surface.kind == SurfaceKind::mesh &&
+        !(reach > radius)) {  // what has been touched is never hidden
+      search.hides = 1 - kSame;
+      search.near = last_triangle(s);
+    }
     view.template each_closest_point<Kinds>(
-        walls, farthest, merge, [&](const ClosestPoint& closest) { add(s, closest, radius, reach); });
+        walls, farthest, search, [&](const ClosestPoint& closest) { add(s, closest, radius, reach); });
   }
   /// A closest point of surface s. Behind a tracked surface, or without touching, a sphere has a contact only
   /// if it had one before; a patch keeps the side of the last contact.
@@ -126,6 +132,12 @@ class SurfaceContacts {
   static constexpr double kSame = 0.99984769515639124;  // cos 1 deg: coplanar faces
   static constexpr double kNear = 0.86602540378443865;  // cos 30 deg: a contact that has moved on
 
+  /// Of a mesh without a shell: a triangle that was touched in the substep before; kNone: none.
+  BL_HD std::uint32_t last_triangle(Index s) const {
+    for (Index k = 0; k < remembered_; ++k)
+      if (memories_[k].surface() == s) return MeshView::triangle_of(std::uint32_t(memories_[k].key));
+    return kNone;
+  }
   BL_HD Index find(std::uint64_t key) const {
     for (Index k = 0; k < remembered_; ++k)
       if (memories_[k].key == key) return k;

@@ -16,8 +16,8 @@ struct BoxKind : BoundedKind {
     return depth <= reach;
   }
   template <class F>
-  BL_HD static void closest_points(const SurfaceData&, const Surface& s, const Vec3d& r, double, double,
-                                   F& f) {
+  BL_HD static void closest_points(const SurfaceData&, const Surface& s, const Vec3d& r, double,
+                                   const MeshSearch&, F& f) {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
     double d[3];
     for (int k = 0; k < 3; ++k) d[k] = p[k] - clamp(p[k], -s.half[k], s.half[k]);

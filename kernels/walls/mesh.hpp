@@ -13,8 +13,9 @@ struct MeshKind : BoundedKind {
   }
   template <class F>
   BL_HD static void closest_points(const SurfaceData& all, const Surface& s, const Vec3d& r, double reach,
-                                   double merge, F& f) {
-    all.meshes[s.first].each_closest_point(r, reach + s.shell, merge, as_points(f));
+                                   const MeshSearch& search, F& f) {
+    all.meshes[s.first].each_closest_point(r, reach + s.shell,
+                                           s.shell > 0 ? MeshSearch(search.merge) : search, as_points(f));
   }
   /// See MeshView::each_exposed_point.
   template <class F>

@@ -10,44 +10,49 @@
 
 namespace BL_SOLVER {
 
+/// How closest points of a mesh are sought.
+struct MeshSearch {
+  double merge;  ///< points of neighbouring triangles closer than this (m) count as one: a closest point that
+                 ///< lies on an edge by round-off
+  double hides = -1;  ///< from 0 on: without those that the nearest one hides, behind the plane through it,
+                      ///< square to the way there, or before it by this share of that way
+  std::uint32_t near = kNone;  ///< a triangle that is likely to be near
+
+  BL_HD MeshSearch(double merge) : merge(merge) {}
+};
+
 struct MeshView {
   const MeshNode* nodes = nullptr;
   const Vec3d* vertices = nullptr;            ///< from the mesh's centre, m
   const MeshTriangle* triangles = nullptr;    ///< in the order of the tree's leaves
   const std::uint32_t* ring_start = nullptr;  ///< [vertices + 1]
   const std::uint32_t* ring = nullptr;        ///< triangles around each vertex, ascending
+  std::uint32_t count = 0;                    ///< of triangles
+  double edge = 0;                            ///< mean length, m
 
-  /// f(normal, signed distance, feature) for every closest point no farther than `reach` (m) from x. Points
-  /// of neighbouring triangles closer than `merge` (m) count as one: a closest point that lies on an edge by
-  /// round-off.
+  /// Of a feature: a triangle to which it belongs.
+  BL_HD static std::uint32_t triangle_of(std::uint32_t feature) { return feature / 7; }
+
+  /// f(normal, signed distance, feature) for every closest point no farther than `reach` (m) from x. Behind
+  /// the surface nothing is hidden.
   template <class F>
-  BL_HD void each_closest_point(const Vec3d& x, double reach, double merge, F&& f) const {
+  BL_HD void each_closest_point(const Vec3d& x, double reach, const MeshSearch& search, F&& f) const {
+    if (search.hides >= 0 && reach > 5 * edge) {  // else to find the nearest first costs more than it saves
+      const Nearest first = nearest_within(x, reach, search.near);
+      if (first.triangle == kNone) return;
+      if (dot(x - first.at.point, outward(first.triangle, first.at)) > 0)
+        return each_before(first, x, reach, search.hides * std::sqrt(first.at.distance2), search.merge, f);
+    }
     walk([&](const MeshNode& node) { return node.distance2(x) <= reach * reach; },
-         [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
+         [&](std::uint32_t t) { closest(t, x, reach, search.merge, f); });
   }
-  /// As each_closest_point, but for what the nearest point of the surface hides: all behind the plane through
-  /// it, square to the way there, or before that plane by less than `flat` (m). Other triangles of a wide
-  /// wall cost nothing.
+  /// As each_closest_point, on both sides of the surface, but for what the nearest point hides: all behind
+  /// the plane through it, square to the way there, or before that plane by less than `flat` (m). Other
+  /// triangles of a wide wall cost nothing.
   template <class F>
   BL_HD void each_exposed_point(const Vec3d& x, double reach, double merge, double flat, F&& f) const {
-    TrianglePoint first;
-    std::uint32_t of = 0;
-    first.distance2 = reach * reach;
-    walk([&](const MeshNode& node) { return node.distance2(x) < first.distance2; },
-         [&](std::uint32_t t) {
-           const TrianglePoint at = nearest(t, x);
-           if (at.distance2 < first.distance2) first = at, of = t;
-         });
-    if (!(first.distance2 < reach * reach)) return;
-    const double distance = std::sqrt(first.distance2);
-    const Vec3d towards = distance > 0 ? (x - first.point) * (1 / distance) : unit_normal(of);
-    walk(
-        [&](const MeshNode& node) {
-          const double d2 = node.distance2(x);
-          return d2 <= first.distance2 ||
-                 (d2 <= reach * reach && node.extent(towards) > dot(first.point, towards) + flat);
-        },
-        [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
+    const Nearest first = nearest_within(x, reach, kNone);
+    if (first.triangle != kNone) each_before(first, x, reach, flat, merge, f);
   }
   /// Whether any of it is within `reach` (m) of x.
   BL_HD bool within(const Vec3d& x, double reach) const {
@@ -75,6 +80,38 @@ struct MeshView {
       for (std::uint32_t t = node.next; t < node.next + node.count; ++t) visit(t);
     }
   }
+  struct Nearest {
+    TrianglePoint at;
+    std::uint32_t triangle = kNone;
+  };
+  /// The nearest point of all, if closer than `reach` (m). likely: a triangle near it, or kNone.
+  BL_HD Nearest nearest_within(const Vec3d& x, double reach, std::uint32_t likely) const {
+    Nearest first;
+    first.at.distance2 = reach * reach;
+    const auto meet = [&](std::uint32_t t) {
+      const TrianglePoint at = nearest(t, x);
+      if (at.distance2 < first.at.distance2) first = {at, t};
+    };
+    if (likely < count) meet(likely);
+    walk([&](const MeshNode& node) { return node.distance2(x) < first.at.distance2; }, meet);
+    return first;
+  }
+  /// The closest points in leaves that hold the nearest one, or reach before the plane through it by more
+  /// than `flat` (m).
+  template <class F>
+  BL_HD void each_before(const Nearest& first, const Vec3d& x, double reach, double flat, double merge,
+                         F& f) const {
+    const double distance2 = (1 + 1e-9) * first.at.distance2;  // round-off must not lose it
+    const Vec3d towards = first.at.distance2 > 0 ? (x - first.at.point) * (1 / std::sqrt(first.at.distance2))
+                                                 : unit_normal(first.triangle);
+    const double plane = dot(first.at.point, towards) + flat;
+    walk(
+        [&](const MeshNode& node) {
+          const double d2 = node.distance2(x);
+          return d2 <= distance2 || (d2 <= reach * reach && node.extent(towards) > plane);
+        },
+        [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
+  }
   BL_HD TrianglePoint nearest(std::uint32_t t, const Vec3d& x) const {
     const Vec3d corners[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
     return nearest_on(corners, x);
@@ -94,27 +131,34 @@ struct MeshView {
     const std::uint32_t key = 7 * t +
                               (at.feature == Feature::face ? 0 : (at.feature == Feature::edge ? 1 : 4)) +
                               std::uint32_t(at.index);
-    Vec3d outward;
     if (at.feature == Feature::face) {
-      outward = unit_normal(t);
-      return f(outward, dot(x - at.point, outward), key);
+      const Vec3d n = unit_normal(t);
+      return f(n, dot(x - at.point, n), key);
     }
     if (at.feature == Feature::edge) {
       const std::uint32_t other = triangles[t].across[at.index];
       if (other < t || !shares(other, x, at.point, merge)) return;
-      outward = unit_normal(t) + unit_normal(other);
     } else {
       const std::uint32_t v = triangles[t].corner[at.index];
       if (ring[ring_start[v]] != t) return;
-      for (std::uint32_t k = ring_start[v]; k < ring_start[v + 1]; ++k) {
+      for (std::uint32_t k = ring_start[v]; k < ring_start[v + 1]; ++k)
         if (!shares(ring[k], x, at.point, merge)) return;
-        outward += angle_at(ring[k], v) * unit_normal(ring[k]);
-      }
     }
-    const Vec3d away = x - at.point;
-    const double distance = norm(away), front = dot(away, outward) >= 0 ? 1.0 : -1.0;
+    const Vec3d away = x - at.point, out = outward(t, at);
+    const double distance = norm(away), front = dot(away, out) >= 0 ? 1.0 : -1.0;
     if (distance > 1e-9 * reach) return f(away * (front / distance), front * distance, key);
-    f(outward * (1 / norm(outward)), 0.0, key);  // too close to have a direction
+    f(out * (1 / norm(out)), 0.0, key);  // too close to have a direction
+  }
+  /// Out of the solid at a point of triangle t: its normal, or the sum of those that meet there, at a corner
+  /// by their angles. Not a unit vector.
+  BL_HD Vec3d outward(std::uint32_t t, const TrianglePoint& at) const {
+    if (at.feature == Feature::face) return unit_normal(t);
+    if (at.feature == Feature::edge) return unit_normal(t) + unit_normal(triangles[t].across[at.index]);
+    const std::uint32_t v = triangles[t].corner[at.index];
+    Vec3d sum;
+    for (std::uint32_t k = ring_start[v]; k < ring_start[v + 1]; ++k)
+      sum += angle_at(ring[k], v) * unit_normal(ring[k]);
+    return sum;
   }
   /// Whether a neighbour, too, is nearest to x at `point`.
   BL_HD bool shares(std::uint32_t t, const Vec3d& x, const Vec3d& point, double merge) const {

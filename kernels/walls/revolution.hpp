@@ -24,8 +24,8 @@ struct RevolutionKind : BoundedKind {
   }
   /// Every closest point lies in the half-plane of the place itself.
   template <class F>
-  BL_HD static void closest_points(const SurfaceData& all, const Surface& s, const Vec3d& r, double, double,
-                                   F& f) {
+  BL_HD static void closest_points(const SurfaceData& all, const Surface& s, const Vec3d& r, double,
+                                   const MeshSearch&, F& f) {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
     const double z = p[2], away = std::sqrt(p[0] * p[0] + p[1] * p[1]);
     Vec3d radial = s.axis[0];

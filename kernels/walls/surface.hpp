@@ -85,9 +85,10 @@ struct SurfaceSet : SurfaceData {
   }
 
   /// f(point) for each closest point of s no farther than `reach` (m) from r, the place as seen from s.centre
-  /// in the frame of t = 0. `merge`: closest points nearer to each other than this (m) may be one.
+  /// in the frame of t = 0.
   template <class Kinds = AllKinds, class F>
-  BL_HD void each_closest_point(const Surface& s, const Vec3d& r, double reach, double merge, F&& f) const {
+  BL_HD void each_closest_point(const Surface& s, const Vec3d& r, double reach, const MeshSearch& search,
+                                F&& f) const {
     const auto meet = nearer<Kinds>(s, reach, f);
     if constexpr (Kinds::kOne)
       meet(Kinds::with(s.kind, [&](const auto& kind) { return kind.closest_point(s, r); }));
@@ -96,7 +97,7 @@ struct SurfaceSet : SurfaceData {
         if constexpr (std::decay_t<decltype(kind)>::kOne)
           meet(kind.closest_point(s, r));
         else
-          kind.closest_points(*this, s, r, reach, merge, meet);
+          kind.closest_points(*this, s, r, reach, search, meet);
       });
   }
   /// As each_closest_point, but a mesh leaves out what its nearest point hides; see
@@ -140,8 +141,8 @@ struct SurfaceView {
   }
   /// f(point), its normal in the lab frame; see SurfaceSet::each_closest_point.
   template <class Kinds = AllKinds, class F>
-  BL_HD void each_closest_point(const SurfaceSet& set, double reach, double merge, F&& f) const {
-    set.each_closest_point<Kinds>(surface, local(), reach, merge, [&](ClosestPoint closest) {
+  BL_HD void each_closest_point(const SurfaceSet& set, double reach, const MeshSearch& search, F&& f) const {
+    set.each_closest_point<Kinds>(surface, local(), reach, search, [&](ClosestPoint closest) {
       if (pose.turned()) closest.normal = pose.rotation.rotate(closest.normal);
       f(closest);
     });

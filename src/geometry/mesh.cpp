@@ -99,6 +99,14 @@ void add_rings(MeshLayout& layout) {
     for (const std::uint32_t v : layout.triangles[t].corner) layout.ring[next[v]++] = t;
 }
 
+double mean_edge(const MeshLayout& layout) {
+  double sum = 0;
+  for (const MeshTriangle& t : layout.triangles)
+    for (int k = 0; k < 3; ++k)
+      sum += norm(layout.vertices[t.corner[(k + 1) % 3]] - layout.vertices[t.corner[k]]);
+  return sum / (3 * double(layout.triangles.size()));
+}
+
 /// The tree, with the boxes of its triangles as they have been placed.
 void add_nodes(MeshLayout& layout, const detail::AabbTree& tree) {
   layout.nodes.resize(tree.nodes().size());
@@ -201,6 +209,7 @@ void TriangleMesh::add_parts(std::vector<SurfacePart>& parts, const Placement& p
     }
   add_rings(*layout);
   add_nodes(*layout, *tree_);
+  layout->edge = mean_edge(*layout);
   part.mesh = layout;
   parts.push_back(part);
 }

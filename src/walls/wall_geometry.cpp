@@ -92,8 +92,8 @@ WallGeometry::WallGeometry(const std::vector<WallBody>& bodies, const DomainConf
   device_corners_.assign(corners_);
   std::vector<MeshView> views;
   for (const MeshBuffers& m : meshes_)
-    views.push_back(
-        {m.nodes.data(), m.vertices.data(), m.triangles.data(), m.ring_start.data(), m.ring.data()});
+    views.push_back({m.nodes.data(), m.vertices.data(), m.triangles.data(), m.ring_start.data(),
+                     m.ring.data(), std::uint32_t(m.triangles.size()), m.edge});
   device_meshes_.assign(views);
 }
 
@@ -126,6 +126,7 @@ void WallGeometry::add(const SurfacePart& part, std::uint32_t body) {
     meshes_.back().triangles.assign(part.mesh->triangles);
     meshes_.back().ring_start.assign(part.mesh->ring_start);
     meshes_.back().ring.assign(part.mesh->ring);
+    meshes_.back().edge = part.mesh->edge;
   }
   surfaces_.push_back(s);
 }

@@ -36,6 +36,7 @@ class WallGeometry {
     Buffer<Vec3d> vertices;
     Buffer<MeshTriangle> triangles;
     Buffer<std::uint32_t> ring_start, ring;
+    double edge;  ///< mean length, m
   };
   std::vector<Surface> surfaces_;
   std::vector<ProfileCorner> corners_;

@@ -262,6 +262,50 @@ TEST(RandomShapes, AreNotPassedOver) {
   EXPECT_GT(near, 200);
 }
 
+/// What the nearest triangle hides is not looked at: contacts are those of all triangles within reach, with
+/// and without a memory of the last one.
+TEST(MeshContacts, AreThoseOfAllTrianglesWithinReach) {
+  RandomShapes random(17);
+  std::mt19937_64 rng(19);
+  std::uniform_real_distribution<double> height(-0.02, 0.02);
+  TriangleSoup rough = ball(5);
+  for (Vec3d& v : rough.vertices) v *= 1 + height(rng);
+  std::array<WallMemory, kMostWallContacts> last;
+  std::array<WallMemory*, kMostWallContacts> slots;
+  for (std::size_t k = 0; k < last.size(); ++k) slots[k] = &last[k];
+  int several = 0;
+  for (const TriangleSoup& soup : {rough, ball(3), l_prism(), cube()}) {
+    const ShapePtr shape = random.placed(std::make_shared<TriangleMesh>(soup, "mesh"));
+    const ClosestPoints points(shape);
+    const SurfaceSet walls = points.walls.view();
+    for (int n = 0; n < 400; ++n) {
+      const SurfacePoint at = shape->nearest(random.point(0.4));
+      const double R = random.between(0.01, 0.2);
+      Index remembered = 0;
+      for (const double off : {random.between(-0.1, 0.99), random.between(0.9, 0.999)}) {
+        const Vec3d x = at.point + at.normal * (off * R);
+        SurfaceContacts<AllKinds, kCountedWallContacts> found({slots.data(), &remembered, 0},
+                                                              walls.surfaces.data, kCountedWallContacts);
+        auto all = found;
+        found.seek(walls, 0, points.still, points.frame, x, 1e-4 * R, R, R);
+        SurfaceView(walls.surfaces[0], points.still, points.frame, x)
+            .each_closest_point(walls, R, 1e-4 * R, [&](const ClosestPoint& c) { all.add(0, c, R, R); });
+        found.resolve(), all.resolve();
+        ASSERT_EQ(found.size(), all.size()) << n << ", " << off << " R above the surface";
+        for (int k = 0; k < all.size(); ++k) {
+          EXPECT_EQ(found[k].key(), all[k].key());
+          EXPECT_EQ(found[k].closest.distance, all[k].closest.distance);
+          EXPECT_EQ(norm(found[k].closest.normal - all[k].closest.normal), 0);
+          if (k < kMostWallContacts) last[k] = {all[k].key(), all[k].closest.normal, {}};
+        }
+        remembered = Index(std::min(all.size(), kMostWallContacts));
+        several += all.size() > 1;
+      }
+    }
+  }
+  EXPECT_GT(several, 100);
+}
+
 /// An outlet takes what lies in it.
 TEST(RandomShapes, TakeWhatLiesWithin) {
   RandomShapes random(13);

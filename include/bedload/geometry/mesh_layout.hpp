@@ -46,6 +46,7 @@ struct MeshLayout {
   std::vector<Vec3d> vertices;  ///< m
   std::vector<MeshTriangle> triangles;
   std::vector<std::uint32_t> ring_start, ring;
+  double edge = 0;  ///< mean length, m
 };
 
 }  // namespace bedload
