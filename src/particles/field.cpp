@@ -48,8 +48,9 @@ BL_FIELD(PackedPosition)
 BL_FIELD(PairPosition)
 BL_FIELD(WallMemory)
 BL_FIELD(ContactHistory)
-BL_FIELD(ContactLoss)
+BL_FIELD(OpenContact)
 BL_FIELD(WallLosses)
+BL_FIELD(WallPeaks)
 #undef BL_FIELD
 
 }  // namespace BL_SOLVER

@@ -83,7 +83,7 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
   std::vector<const FieldBase*> out;
   if (wall_contacts_) out.push_back(wall_contacts_.get());
   for (const auto& memory : wall_memory_) out.push_back(memory.get());
-  if (spectra_ && spectra_->field()) out.push_back(spectra_->field());
+  if (spectra_ && wall_contacts_) out.insert(out.end(), {spectra_->wall_peaks(), spectra_->wall_losses()});
   return out;
 }
 

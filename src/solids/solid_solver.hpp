@@ -146,7 +146,7 @@ class SolidSolver {
                       (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
             .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
                                                      (books_ ? sizeof(ContactAction) : 0) +
-                                                     (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
+                                                     (spectra_ ? 2 * sizeof(OpenContact) : 0) +
                                                      (forces_ ? sizeof(Real3) : 0)))};
   }
 

@@ -501,6 +501,7 @@ std::vector<std::byte> readings(Simulation& s, const Config& c) {
   for (const WallBody& body : c.wall.bodies)
     if (body.wear != WearLaw::none) add_store(s.snapshot("wear/" + body.name));
   for (const auto& row : s.spectra()) add(row);
+  for (const auto& row : s.spectra_peaks()) add(row);
   return out;
 }
 
