@@ -75,9 +75,9 @@ struct OpenLosses {
   }
 };
 
-/// J: dissipated in contacts, work on the grains.
+/// J: dissipated in contacts and by lubrication, work on the grains.
 struct EnergyFlow {
-  enum Term { normal, sliding, rolling, walls, gravity, fluid, kTerms };
+  enum Term { normal, sliding, rolling, films, walls, gravity, fluid, kTerms };
   double of[kTerms];
 
   BL_HD static EnergyFlow zero() {
