@@ -115,6 +115,8 @@ class Simulation {
   /// Rows of spectra.csv: the lower edge of a bin, J, and number and energy of the contacts in it, by pair of
   /// materials. Empty if the case does not ask.
   virtual std::vector<std::vector<Quantity>> spectra() { return {}; }
+  /// Likewise rows of spectra_peaks.csv, of peak elastic energies and normal forces.
+  virtual std::vector<std::vector<Quantity>> spectra_peaks() { return {}; }
   /// Values of a probe: with `sample = "mean"`, for a probe of the case, the mean over its interval so far;
   /// else the current values.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;

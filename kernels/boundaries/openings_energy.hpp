@@ -70,7 +70,8 @@ struct EndContactsPass {
     if (sink[i] == kStays) return;
     const WallMemories memories = walls.memories(i);
     for (Index k = 0; k < memories.count(); ++k)
-      losses.enter_at_wall(g, i, walls.walls.surfaces[memories[k].surface()].body, losses.at_walls[i].of[k]);
+      losses.enter_at_wall(g, i, walls.walls.surfaces[memories[k].surface()].body, losses.at_walls[i].of[k],
+                           losses.wall_peaks[i].of[k]);
   }
 };
 

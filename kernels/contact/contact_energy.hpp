@@ -45,28 +45,39 @@ struct FileType<WallLosses> {
   static constexpr Scalar scalar = Scalar::f64;
   static constexpr int components = sizeof(WallLosses) / sizeof(double);
 };
+/// Likewise their peaks.
+struct WallPeaks {
+  ContactPeak of[kMostWallContacts];
+};
+template <>
+struct FileType<WallPeaks> {
+  static constexpr Scalar scalar = FileType<ContactPeak>::scalar;
+  static constexpr int components = kMostWallContacts * FileType<ContactPeak>::components;
+};
 /// Contacts whose losses are added up; nothing where spectra are not asked for.
 struct OpenLosses {
   ContactSpectra spectra;
-  ContactLoss* of_pairs = nullptr;  ///< [slots], the same in the rows of both grains
+  OpenContact* of_pairs = nullptr;  ///< [slots], the same in the rows of both grains
   WallLosses* at_walls = nullptr;   ///< [grains]
+  WallPeaks* wall_peaks = nullptr;  ///< [grains]
   BL_HD explicit operator bool() const { return spectra.bins; }
 
   BL_HD std::uint32_t kind(const GrainView& g, Index i) const {
     return spectra.kind(g.mass_per_r3.material_of(i), g.radius[i]);
   }
   /// A contact of two grains, or of one and a wall body, that has ended.
-  BL_HD void enter(const GrainView& g, Index i, Index j, const ContactLoss& loss) const {
-    spectra.enter(spectra.of_pair(kind(g, i), kind(g, j)), loss);
+  BL_HD void enter(const GrainView& g, Index i, Index j, const OpenContact& open) const {
+    spectra.enter(spectra.of_pair(kind(g, i), kind(g, j)), open.loss, open.peak);
   }
-  BL_HD void enter_at_wall(const GrainView& g, Index i, std::uint32_t body, const ContactLoss& loss) const {
-    spectra.enter(spectra.on_wall(body, kind(g, i)), loss);
+  BL_HD void enter_at_wall(const GrainView& g, Index i, std::uint32_t body, const ContactLoss& loss,
+                           const ContactPeak& peak) const {
+    spectra.enter(spectra.on_wall(body, kind(g, i)), loss, peak);
   }
 };
 
-/// J: dissipated in contacts, work on the grains.
+/// J: dissipated in contacts and by lubrication, work on the grains.
 struct EnergyFlow {
-  enum Term { normal, sliding, rolling, walls, gravity, fluid, kTerms };
+  enum Term { normal, sliding, rolling, films, walls, gravity, fluid, kTerms };
   double of[kTerms];
 
   BL_HD static EnergyFlow zero() {
@@ -145,10 +156,13 @@ struct PairFlowPass {
     if (!(contacts.dt > 0)) return;
     flow.dissipate(motion, contacts.dt, before, now, had, has);
     if (!losses) return;
-    ContactLoss& loss = losses.of_pairs[slot];
-    if (!pair.touched) loss = {};
-    flow.add_to(loss);
-    if (!pair.acts && counts) losses.enter(g, i, j, loss);
+    OpenContact& open = losses.of_pairs[slot];
+    if (!pair.touched) open = {};
+    flow.add_to(open.loss);
+    if (pair.acts)
+      open.peak.take(Real(has.total()), dot(pair.on_lo.force, pair.at.n));
+    else if (counts)
+      losses.enter(g, i, j, open);
   }
 };
 
@@ -170,6 +184,7 @@ struct WallFlowPass {
     EnergyFlow flow = EnergyFlow::zero();
     RawArray<ContactAction, kMostWallContacts> now;
     RawArray<ContactLoss, kMostWallContacts> lost;
+    RawArray<ContactPeak, kMostWallContacts> peak;
     unsigned kept = 0;  // memories that contacts continue, by bits
     int n = 0;
     const auto count = [&](const Turn& c, ContactLoss& loss) {
@@ -199,16 +214,19 @@ struct WallFlowPass {
           now[n] = ContactAction::of(c.on_grain, course.at);
           ContactAction before{};
           StoredEnergy had;
-          lost[n] = {};
+          lost[n] = {}, peak[n] = {};
           if (course.from != kNone) {
             kept |= 1u << course.from;
             before = action(course.from, i), had = memory_energy(course.from);
-            if (losses) lost[n] = losses.at_walls[i].of[course.from];
+            if (losses)
+              lost[n] = losses.at_walls[i].of[course.from], peak[n] = losses.wall_peaks[i].of[course.from];
           } else if (wear && dt > 0) {
             const BodyPose& pose = contacts.poses[body];
             wear.strike(body, pose, contacts.arm(pose, c.point), own.m, Vec3d(g.v[i]) - course.v_wall,
                         Vec3d(course.at.n));
           }
+          const StoredEnergy has = course.law.energy(own.R, own.m, course.after);
+          if (losses) peak[n].take(Real(has.total()), dot(c.on_grain.force, course.at.n));
           if (dt > 0)
             count({.body = body,
                    .point = c.point,
@@ -218,7 +236,7 @@ struct WallFlowPass {
                    .before = before,
                    .after = now[n],
                    .had = had,
-                   .has = course.law.energy(own.R, own.m, course.after)},
+                   .has = has},
                   lost[n]);
           ++n;
         });
@@ -239,11 +257,11 @@ struct WallFlowPass {
              .has = {},
              .ended = true},
             loss);
-      if (losses) losses.enter_at_wall(g, i, body, loss);
+      if (losses) losses.enter_at_wall(g, i, body, loss, losses.wall_peaks[i].of[k]);
     }
     for (int k = 0; k < n; ++k) {
       action(Index(k), i) = now[k];
-      if (losses && dt > 0) losses.at_walls[i].of[k] = lost[k];
+      if (losses && dt > 0) losses.at_walls[i].of[k] = lost[k], losses.wall_peaks[i].of[k] = peak[k];
     }
     flows[i].add(flow);
   }

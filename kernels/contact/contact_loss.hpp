@@ -1,5 +1,5 @@
 #pragma once
-// What single contacts dissipate from their beginning to their end, and histograms of it.
+// What single contacts dissipate from their beginning to their end, their peaks, and histograms of both.
 
 #include "bedload/parallel/atomic_add.hpp"
 #include "bedload/particles/field.hpp"
@@ -14,6 +14,29 @@ template <>
 struct FileType<ContactLoss> {
   static constexpr Scalar scalar = Scalar::f64;
   static constexpr int components = 2;
+};
+
+/// The most that a contact has had since it began: elastic energy, J, normal force, N.
+struct ContactPeak {
+  Real energy = 0, force = 0;
+
+  BL_HD void take(Real e, Real f) { energy = max_of(energy, e), force = max_of(force, f); }
+};
+template <>
+struct FileType<ContactPeak> {
+  static constexpr Scalar scalar = FileType<Real>::scalar;
+  static constexpr int components = 2;
+};
+/// What is kept of a pair in contact.
+struct OpenContact {
+  ContactLoss loss;
+  ContactPeak peak;
+};
+/// Bit by bit.
+template <>
+struct FileType<OpenContact> {
+  static constexpr Scalar scalar = Scalar::f64;
+  static constexpr int components = sizeof(OpenContact) / sizeof(double);
 };
 
 /// A number of units; those too large for 64 bits are cut off there.
@@ -41,13 +64,13 @@ struct WideSum {
   }
 };
 
-/// Contacts that have ended: how many, and their energy in units of the spectrum.
+/// Contacts that have ended: how many, and the sum of their energies or forces in units of the spectrum.
 struct SpectrumBin {
   std::uint64_t count;
-  WideSum energy;
+  WideSum sum;
 
-  BL_HD void enter(std::int64_t units) { atomic_add(count, 1), energy.add(units); }
-  void add(const SpectrumBin& other) { count += other.count, energy.add(other.energy); }
+  BL_HD void enter(std::int64_t units) { atomic_add(count, 1), sum.add(units); }
+  void add(const SpectrumBin& other) { count += other.count, sum.add(other.sum); }
 };
 template <>
 struct FileType<SpectrumBin> {
@@ -55,19 +78,22 @@ struct FileType<SpectrumBin> {
   static constexpr int components = 3;
 };
 
-/// Bins over the logarithm of the energy, by class of contact and kind of loss: by the kinds of both grains,
-/// or that of one and the wall body. Integers, so that the order in which contacts enter does not matter.
+/// Bins over the logarithm of energies and forces, by class of contact: by the kinds of both grains, or that
+/// of one and the wall body. Integers, so that the order in which contacts enter does not matter.
 struct ContactSpectra {
   static constexpr int kKinds = 2, kDecades = 14, kMostSizes = 8;
 
-  SpectrumBin* bins = nullptr;  ///< [class][kind][size()]
-  double from = 0;              ///< lower edge of the first bin, J; it has what is less, too
+  SpectrumBin* bins = nullptr;   ///< [class][kind][size()]; dissipated: normal, tangential
+  SpectrumBin* peaks = nullptr;  ///< likewise; elastic energy, normal force
+  double from = 0;               ///< lower edge of the first bin, J; it has what is less, too
+  double from_force = 0;         ///< that of forces, N
   int per_decade = 0;
   std::uint32_t materials = 1, sizes = 1;
   Real least[kMostSizes - 1] = {};  ///< radius of each class of sizes but the first, m
 
   BL_HD int size() const { return kDecades * per_decade; }
   BL_HD double unit() const { return 1e-3 * from; }                 ///< of energies in bins, J
+  BL_HD double unit_of_force() const { return 1e-3 * from_force; }  ///< N
   BL_HD std::uint32_t grains() const { return materials * sizes; }  ///< number of kinds
   BL_HD std::uint32_t kind(std::uint32_t material, Real radius) const {
     std::uint32_t size = 0;
@@ -80,16 +106,18 @@ struct ContactSpectra {
   BL_HD std::uint32_t on_wall(std::uint32_t body, std::uint32_t kind) const {
     return (grains() + body) * grains() + kind;
   }
-  BL_HD void enter(std::uint32_t of, const ContactLoss& loss) const {
-    SpectrumBin* const first = bins + std::size_t(of) * kKinds * std::size_t(size());
-    first[bin(loss.normal)].enter(whole(loss.normal / unit()));
-    first[size() + bin(loss.tangential)].enter(whole(loss.tangential / unit()));
+  BL_HD void enter(std::uint32_t of, const ContactLoss& loss, const ContactPeak& peak) const {
+    const std::size_t first = std::size_t(of) * kKinds * std::size_t(size()), second = first + size();
+    bins[first + bin(loss.normal, from)].enter(whole(loss.normal / unit()));
+    bins[second + bin(loss.tangential, from)].enter(whole(loss.tangential / unit()));
+    peaks[first + bin(peak.energy, from)].enter(whole(peak.energy / unit()));
+    peaks[second + bin(peak.force, from_force)].enter(whole(peak.force / unit_of_force()));
   }
 
  private:
-  BL_HD int bin(double energy) const {
-    if (!(energy > from)) return 0;
-    const double place = per_decade * std::log10(energy / from);
+  BL_HD int bin(double value, double lowest) const {
+    if (!(value > lowest)) return 0;
+    const double place = per_decade * std::log10(value / lowest);
     return place < size() - 1 ? int(place) : size() - 1;
   }
 };

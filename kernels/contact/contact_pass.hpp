@@ -64,8 +64,8 @@ struct CarryHistoryPass {
   Span<const Index> order;       ///< former index of each grain; kNone if it had no row
   Span<const Id> former_id, id;  ///< by former and by present index
   PairHistories old_histories, histories;
-  const ContactLoss* old_losses = nullptr;  ///< by slot; null: not asked for
-  ContactLoss* losses = nullptr;
+  const OpenContact* old_losses = nullptr;  ///< by slot; null: not asked for
+  OpenContact* losses = nullptr;
   BL_HD void operator()(Index i) const {
     const Index was_i = order[i];
     if (was_i == kNone || long_rows.cut(i)) return;

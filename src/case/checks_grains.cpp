@@ -150,9 +150,7 @@ void Checks::grain_energy() const {
   if (!c.grain.present && c.out.contacts != ContactFrames::none)
     fail("out.contacts", '"' + c.out.contacts.name() + '"', "must be \"none\" without [grain]");
   for (const auto& [there, what] :
-       {std::pair{!c.grain.present, "without [grain]"},
-        {c.grain.fixed, "with grain.fixed"},
-        {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
+       {std::pair{!c.grain.present, "without [grain]"}, {c.grain.fixed, "with grain.fixed"}}) {
     if (!there) continue;
     for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})
       if (asked) fail(key, "true", fmt::format("must be false {}", what));

@@ -343,7 +343,9 @@ void describe_output(Parameters& p, OutputConfig& o) {
   p("out.spectra", &o.spectra,
     {.meaning =
          "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
-         "materials and sizes; with the columns of out.energy"});
+         "materials and sizes, and spectra_peaks.csv: their peak elastic energies and normal forces; with "
+         "the "
+         "columns of out.energy"});
   if (o.spectra || p.everything()) {
     p("out.spectra_bins", &o.spectra_bins,
       {.meaning = "bins of the spectra a decade", .range = within(5, 50)});
@@ -352,6 +354,10 @@ void describe_output(Parameters& p, OutputConfig& o) {
        .meaning =
            "lower edge of the first bin, which has all lower energies too; the last ends 14 decades above",
        .range = within(1e-30, 1)});
+    p("out.spectra_from_force", &o.spectra_from_force,
+      {.unit = "N",
+       .meaning = "lower edge of the first bin of peak forces; the last ends 14 decades above",
+       .range = within(1e-30, 1e6)});
     p("out.spectra_sizes", &o.spectra_sizes,
       {.unit = "m",
        .meaning = "diameters between classes of sizes, each with spectra of its own; in rising order",

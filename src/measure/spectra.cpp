@@ -1,6 +1,7 @@
-// Rows of spectra.csv.
+// Rows of spectra.csv and spectra_peaks.csv.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bedload/case/materials.hpp"
@@ -57,14 +58,20 @@ std::vector<ContactClass> classes_of(const Config& c, const ContactSpectra& layo
   return out;
 }
 
-}  // namespace
+/// A quantity of contacts, and what the sum over those in a bin is called.
+struct BinnedKind {
+  const char *count, *sum, *unit;
+  double in_unit;  ///< of a unit of the bins
+};
 
-std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
-  const SpectraBooks* const books = state_.has_grains ? stepper_.solids().spectra() : nullptr;
-  if (!books) return {};
-  const ContactSpectra& layout = books->layout();
-  const std::vector<SpectrumBin> bins = books->bins();
-  const std::vector<ContactClass> classes = classes_of(config_, layout);
+/// A row for each bin from the first to the last with any contact; edges(bin): its columns before those of
+/// the classes.
+template <class Edges>
+std::vector<std::vector<Quantity>> rows_of(const std::vector<SpectrumBin>& bins, const Config& config,
+                                           const ContactSpectra& layout,
+                                           const std::array<BinnedKind, ContactSpectra::kKinds>& kinds,
+                                           Edges&& edges) {
+  const std::vector<ContactClass> classes = classes_of(config, layout);
   const int size = layout.size();
   int first = size, last = -1;
   for (std::size_t k = 0; k < bins.size(); ++k) {
@@ -74,18 +81,45 @@ std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
   if (last < 0) first = last = 0;
   std::vector<std::vector<Quantity>> rows;
   for (int bin = first; bin <= last; ++bin) {
-    rows.push_back({{"from", "J", layout.from * std::pow(10.0, double(bin) / layout.per_decade)}});
+    rows.push_back(edges(std::pow(10.0, double(bin) / layout.per_decade)));
     for (const ContactClass& c : classes)
       for (int kind = 0; kind < ContactSpectra::kKinds; ++kind) {
-        const std::string name = c.name + (kind == 0 ? "_normal" : "_tangential");
         SpectrumBin at{};
         for (const std::uint32_t place : c.places)
           at.add(bins[(std::size_t(place) * ContactSpectra::kKinds + kind) * std::size_t(size) + bin]);
-        rows.back().push_back({name + "_count", "-", double(at.count)});
-        rows.back().push_back({name + "_energy", "J", at.energy.value() * layout.unit()});
+        const BinnedKind& as = kinds[std::size_t(kind)];
+        rows.back().push_back({c.name + as.count, "-", double(at.count)});
+        rows.back().push_back({c.name + as.sum, as.unit, at.sum.value() * as.in_unit});
       }
   }
   return rows;
+}
+
+}  // namespace
+
+std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
+  const SpectraBooks* const books = state_.has_grains ? stepper_.solids().spectra() : nullptr;
+  if (!books) return {};
+  const ContactSpectra& layout = books->layout();
+  return rows_of(books->bins(), config_, layout,
+                 {{{"_normal_count", "_normal_energy", "J", layout.unit()},
+                   {"_tangential_count", "_tangential_energy", "J", layout.unit()}}},
+                 [&](double up) {
+                   return std::vector<Quantity>{{"from", "J", layout.from * up}};
+                 });
+}
+
+std::vector<std::vector<Quantity>> CoupledSimulation::spectra_peaks() {
+  const SpectraBooks* const books = state_.has_grains ? stepper_.solids().spectra() : nullptr;
+  if (!books) return {};
+  const ContactSpectra& layout = books->layout();
+  return rows_of(books->peaks(), config_, layout,
+                 {{{"_energy_count", "_energy_sum", "J", layout.unit()},
+                   {"_force_count", "_force_sum", "N", layout.unit_of_force()}}},
+                 [&](double up) {
+                   return std::vector<Quantity>{{"from_energy", "J", layout.from * up},
+                                                {"from_force", "N", layout.from_force * up}};
+                 });
 }
 
 }  // namespace BL_SOLVER

@@ -289,7 +289,7 @@ struct RunOutput::Impl {
   }
 
   static std::vector<std::vector<Quantity>> rows_of(Simulation& simulation, const Table& t) {
-    if (t.spectra) return simulation.spectra();
+    if (t.spectra) return (simulation.*t.spectra)();
     if (t.probe) return {simulation.measure(*t.probe)};
     return {t.body ? simulation.body_state(*t.body) : simulation.diagnostics()};
   }

@@ -12,6 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStores[] = {"fluid", "grains", "clumps", "walls", "contacts"};
+constexpr const char* kSpectra[] = {"spectra.csv", "spectra_peaks.csv"};
 constexpr const char* kTableFolders[] = {"probes", "bodies"};
 
 FrameFile frame_file(const fs::path& folder, const std::string& store, bool doubles = false) {
@@ -70,7 +71,10 @@ Series series_of(const Config& c, const fs::path& folder) {
 
   const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
   s.tables.push_back({{}, {}, CsvTable(folder / "diagnostics.csv"), every(c.out.diagnostics_every)});
-  if (c.out.spectra) s.tables.push_back({{}, {}, CsvTable(folder / "spectra.csv"), every(0), true});
+  if (c.out.spectra) {
+    s.tables.push_back({{}, {}, CsvTable(folder / kSpectra[0]), every(0), &Simulation::spectra});
+    s.tables.push_back({{}, {}, CsvTable(folder / kSpectra[1]), every(0), &Simulation::spectra_peaks});
+  }
   for (const auto& probe : c.out.probes)
     s.tables.push_back({probe, {}, CsvTable(folder / "probes" / (probe.name + ".csv")), every(probe.every)});
   const auto add_body = [&](int body, const std::string& name) {
@@ -107,7 +111,7 @@ Leftovers leftovers(const Series& series, const fs::path& folder) {
                                        [&](const Table& t) { return t.csv.path() == path; }))
       left.tables.emplace_back(path);
   };
-  look(folder / "spectra.csv");
+  for (const char* name : kSpectra) look(folder / name);
   for (const char* name : kTableFolders) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder / name, none)) look(entry.path());

@@ -10,6 +10,7 @@
 #include "bedload/case/config.hpp"
 #include "bedload/output/csv.hpp"
 #include "bedload/output/vtkhdf.hpp"
+#include "bedload/simulation.hpp"
 
 namespace bedload {
 
@@ -48,7 +49,7 @@ struct Table {
   std::optional<int> body;           ///< index of a wall body or rigid group in Simulation
   CsvTable csv;
   Schedule schedule;
-  bool spectra = false;
+  std::vector<std::vector<Quantity>> (Simulation::*spectra)() = nullptr;  ///< these or their peaks
 };
 
 struct Series {

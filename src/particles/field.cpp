@@ -1,7 +1,7 @@
 #include "bedload/particles/field.hpp"
 
 #include "bedload/parallel/loops.hpp"
-#include "kernels/contact/contact_energy.hpp"
+#include "kernels/contact/film_energy.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -48,8 +48,10 @@ BL_FIELD(PackedPosition)
 BL_FIELD(PairPosition)
 BL_FIELD(WallMemory)
 BL_FIELD(ContactHistory)
-BL_FIELD(ContactLoss)
+BL_FIELD(OpenContact)
 BL_FIELD(WallLosses)
+BL_FIELD(WallPeaks)
+BL_FIELD(FilmAction)
 #undef BL_FIELD
 
 }  // namespace BL_SOLVER

@@ -18,10 +18,10 @@ class ArrivingContacts {
   /// each grain, empty where they are in the order of the list; `listed`: the list is of these grains;
   /// losses: by slots, null where nobody asks for them. By all ranks at the same time.
   void send(const Migrants& migrants, Span<const Index> rows, const VerletListView& list, bool listed,
-            const PairHistories& histories, Span<const Id> id, const ContactLoss* losses);
+            const PairHistories& histories, Span<const Id> id, const OpenContact* losses);
   /// Into the rows of grains that had none before (`order`: kNone) go what has come since the last call.
   void settle(Range grains, Span<const Index> order, Span<const Id> id, const VerletListView& list,
-              const PairHistories& histories, ContactLoss* losses);
+              const PairHistories& histories, OpenContact* losses);
 
  private:
   struct Records : Store {
@@ -30,7 +30,7 @@ class ArrivingContacts {
     }
     Field<Id> own{*this, "own", "-", Lifetime::kept}, other{*this, "other", "-", Lifetime::kept};
     Field<ContactHistory> history{*this, "history", ContactHistory::units(), Lifetime::kept};
-    Field<ContactLoss> loss{*this, "loss", "J", Lifetime::kept};
+    Field<OpenContact> loss{*this, "loss", "J, N", Lifetime::kept};
   } records_;
   Buffer<std::uint32_t> own_;  ///< of those that have come, ascending
   Buffer<Index> order_;        ///< the record of each

@@ -65,7 +65,7 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
     const auto touching = histories_.touching();
     const auto history = histories_.to_host();
     const auto force = forces_->of_pairs();
-    const auto loss = spectra_ ? spectra_->of_pairs().to_host() : std::vector<ContactLoss>(list_.slots());
+    const auto open = spectra_ ? spectra_->of_pairs().to_host() : std::vector<OpenContact>(list_.slots());
     const std::vector<Id> id = g.id.values();
     const std::vector<Vec3d> x = g.x.values();
     const std::vector<Real> radius = g.radius.values();
@@ -83,7 +83,7 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
                          .force = Vec3d(force[slot]),
                          .overlap = overlap,
                          .spring = history[slot].xi,
-                         .dissipated = all_of(loss[slot])});
+                         .dissipated = all_of(open[slot].loss)});
       });
     const auto count = wall_contacts_ ? wall_contacts_->values() : std::vector<Index>(g.size());
     const auto at_walls = forces_->at_walls();

@@ -57,9 +57,10 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains, const HostArray* 
   const std::vector<Id> id = grains.id.values();
   std::vector<Id> lo, hi;
   std::vector<ContactHistory> kept;
-  const std::vector<ContactLoss> loss =
-      spectra_ ? spectra_->of_pairs().to_host() : std::vector<ContactLoss>{};
-  std::vector<ContactLoss> kept_loss;
+  const std::vector<OpenContact> open =
+      spectra_ ? spectra_->of_pairs().to_host() : std::vector<OpenContact>{};
+  std::vector<ContactLoss> loss;
+  std::vector<ContactPeak> peak;
   HostArray block{"block", "-", Scalar::u32, blocks ? blocks->components : 1, {}};
   const std::size_t of_row = std::size_t(block.components) * sizeof(std::uint32_t);
   for (Index i = 0; i < list_.rows(); ++i)
@@ -67,7 +68,7 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains, const HostArray* 
       if (history[slot].overlap == 0 || id[i] > id[j]) return;  // both partners hold the same
       lo.push_back(id[i]), hi.push_back(id[j]);
       kept.push_back(history[slot]);
-      if (spectra_) kept_loss.push_back(loss[slot]);
+      if (spectra_) loss.push_back(open[slot].loss), peak.push_back(open[slot].peak);
       if (!blocks) return;
       block.bytes.resize(kept.size() * of_row);
       std::memcpy(block.bytes.data() + (kept.size() - 1) * of_row, blocks->bytes.data() + i * of_row, of_row);
@@ -76,7 +77,10 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains, const HostArray* 
       "contacts",
       kept.size(),
       {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", ContactHistory::units(), kept)}};
-  if (spectra_) out.arrays.push_back(to_array("loss", "J", kept_loss));
+  if (spectra_) {
+    out.arrays.push_back(to_array("loss", "J", loss));
+    out.arrays.push_back(to_array("peak", "J, N", peak));
+  }
   if (blocks) out.arrays.push_back(std::move(block));
   return out;
 }
@@ -97,14 +101,16 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   const Id* lo = from_array<Id>(contacts, "lo", "-");
   const Id* hi = from_array<Id>(contacts, "hi", "-");
   const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", ContactHistory::units());
-  const ContactLoss* kept_loss =
+  const ContactLoss* loss =
       spectra_ && contacts.find("loss") ? from_array<ContactLoss>(contacts, "loss", "J") : nullptr;
+  const ContactPeak* peak =
+      spectra_ && contacts.find("peak") ? from_array<ContactPeak>(contacts, "peak", "J, N") : nullptr;
   const HostVerletList list(list_);
   const std::vector<Id> id = grains.id.values();
   const ContactsByGrain by_grain({lo, Index(contacts.count)},
                                  id.empty() ? 0 : *std::max_element(id.begin(), id.end()));
   std::vector<ContactHistory> history(list_.slots());
-  std::vector<ContactLoss> loss(spectra_ ? list_.slots() : 0);
+  std::vector<OpenContact> open(spectra_ ? list_.slots() : 0);
   std::size_t found = 0;
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
@@ -112,7 +118,8 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
       for (const std::size_t c : by_grain.of(first)) {
         if (hi[c] != second) continue;
         history[slot] = kept[c];
-        if (kept_loss) loss[slot] = kept_loss[c];
+        if (loss) open[slot].loss = loss[c];
+        if (peak) open[slot].peak = peak[c];
         ++found;
         break;
       }
@@ -121,28 +128,35 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   if (found != 2 * contacts.count)
     throw FileError("checkpoint: contacts between grains that are not near each other");
   histories_.assign(history);
-  if (spectra_) spectra_->of_pairs().assign(loss);
+  if (spectra_) spectra_->of_pairs().assign(open);
 }
 
 void SolidSolver::save_histograms(std::vector<HostStore>& stores) const {
   if (wear_) wear_->save(stores);
   if (!spectra_) return;
-  const auto bins = spectra_->bins();
-  stores.push_back({"spectra", bins.size(), {to_array("bins", "-", bins)}});
+  const auto add = [&](const char* name, const std::vector<SpectrumBin>& bins) {
+    stores.push_back({name, bins.size(), {to_array("bins", "-", bins)}});
+  };
+  add("spectra", spectra_->bins());
+  add("spectra_peaks", spectra_->peaks());
 }
 
 void SolidSolver::load_histograms(const std::vector<HostStore>& stores) {
   if (wear_) wear_->load(stores);
   if (!spectra_) return;
-  std::vector<SpectrumBin> all(spectra_->bins().size());
-  for (const HostStore& store : stores) {
-    if (store.name != "spectra") continue;
-    const SpectrumBin* const bins = from_array<SpectrumBin>(store, "bins", "-");
-    if (store.count != all.size())
-      throw FileError("checkpoint: spectra have other bins, materials, sizes or wall bodies than this case");
-    all.assign(bins, bins + store.count);
-  }
-  spectra_->load(all);
+  const auto find = [&](const char* name) {
+    std::vector<SpectrumBin> all(spectra_->number_of_bins());
+    for (const HostStore& store : stores) {
+      if (store.name != name) continue;
+      const SpectrumBin* const bins = from_array<SpectrumBin>(store, "bins", "-");
+      if (store.count != all.size())
+        throw FileError(
+            "checkpoint: spectra have other bins, materials, sizes or wall bodies than this case");
+      all.assign(bins, bins + store.count);
+    }
+    return all;
+  };
+  spectra_->load(find("spectra"), find("spectra_peaks"));
 }
 
 }  // namespace BL_SOLVER

@@ -8,9 +8,9 @@
 namespace BL_SOLVER {
 namespace {
 
-constexpr const char* kTerms[EnergyFlow::kTerms] = {"dissipated_normal",  "dissipated_sliding",
-                                                    "dissipated_rolling", "work_walls",
-                                                    "work_gravity",       "work_fluid"};
+constexpr const char* kTerms[EnergyFlow::kTerms] = {
+    "dissipated_normal", "dissipated_sliding", "dissipated_rolling", "dissipated_lubrication",
+    "work_walls",        "work_gravity",       "work_fluid"};
 constexpr const char *kIn = "grain_energy_in", *kOut = "grain_energy_out";
 /// Of what all ranks have.
 Range of_first_rank(Range all) { return Context::current().rank() == 0 ? all : Range{}; }
@@ -22,7 +22,7 @@ std::vector<Quantity> EnergyBooks::terms(double energy) const {
   std::vector<Quantity> out;
   double residual = begun_ ? energy - start_ : 0;
   for (int k = 0; k < EnergyFlow::kTerms; ++k) {
-    out.push_back({name_of(k), "J", sum_.of[k]});
+    if (k != EnergyFlow::films || films_) out.push_back({name_of(k), "J", sum_.of[k]});
     residual += k < EnergyFlow::walls ? sum_.of[k] : -sum_.of[k];
   }
   out.push_back({kIn, "J", in_});
@@ -82,6 +82,16 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
   for_each(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
   if (clumps_.any() && dt > 0)
     for_each(clumps_.store().owned(), ClumpFlowPass{clumps_.view(), gravity, dt, books_->of_clumps()});
+}
+
+void SolidSolver::count_film_flows(const GrainStore& g, const BodyPose* poses, double dt) {
+  for_each(g.owned(),
+           FilmFlowPass{.walls = wall_contacts(g, poses, dt),
+                        .rows = wall_list_.rows(),
+                        .wall_row = wall_list_.size() > 0 ? wall_list_.row_of() : Span<const Index>(),
+                        .by_grains = by_films_.data(),
+                        .actions = books_->films(),
+                        .flows = books_->flows()});
 }
 
 template <class Law>

@@ -2,20 +2,28 @@
 // Where the energy of the grains goes, in sums over a run.
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "bedload/parallel/reductions.hpp"
+#include "bedload/particles/grains.hpp"
 #include "bedload/simulation.hpp"
-#include "kernels/contact/contact_energy.hpp"
+#include "kernels/contact/film_energy.hpp"
 
 namespace BL_SOLVER {
 
 /// Flows to each grain are added up on the device until an advance ends. What they need between two substeps
-/// is found again when an advance begins, so checkpoints hold the sums alone.
+/// is found again when an advance begins, but for lubrication; so checkpoints hold that and the sums alone.
 class EnergyBooks {
  public:
-  /// most: far above the energy that a grain takes or gives in a substep, J.
-  explicit EnergyBooks(double most) : most_(most), all_(2) {}
+  /// most: far above the energy that a grain takes or gives in a substep, J; films: of lubrication, which
+  /// then is a field of the grains.
+  EnergyBooks(double most, GrainStore& grains, bool films) : most_(most), all_(2) {
+    if (!films) return;
+    films_ = std::make_unique<Field<FilmAction>>(grains, "film_action", "N, N m, W", Lifetime::kept);
+    films_->begin_at_zero();
+    films_->resize(grains.size());
+  }
   bool begun() const { return begun_; }
   /// Begins with so much energy of grains, J.
   void begin(double energy) { forget(), begun_ = true, start_ = energy; }
@@ -52,6 +60,8 @@ class EnergyBooks {
   EnergyFlow* of_clumps() { return of_clumps_.data(); }
   ContactAction* of_pairs() { return of_pairs_.data(); }
   ContactAction* at_walls() { return at_walls_.data(); }
+  FilmAction* films() { return films_->buffer().data(); }  ///< only with lubrication
+  const FieldBase* film_field() const { return films_.get(); }
   GrainCourse* course() { return course_.size() > 0 ? course_.data() : nullptr; }
 
   /// The terms and the residual; energy: of the grains now, J.
@@ -72,6 +82,7 @@ class EnergyBooks {
   Buffer<EnergyFlow> all_;                ///< sums of both
   Buffer<ContactAction> of_pairs_, at_walls_;
   Buffer<GrainCourse> course_;
+  std::unique_ptr<Field<FilmAction>> films_;  ///< null without lubrication
 };
 
 }  // namespace BL_SOLVER

@@ -66,8 +66,8 @@ struct RecordTouchingPass {
   Span<const Id> id;         ///< of the entries of the list
   Span<Id> own, other;
   Span<ContactHistory> history;
-  const ContactLoss* losses;  ///< by slots, may be null
-  Span<ContactLoss> loss;
+  const OpenContact* losses;  ///< by slots, may be null
+  Span<OpenContact> loss;
   BL_HD void operator()(Index k) const {
     const Index row = touching.row(k);
     if (row == kNone) return;
@@ -89,10 +89,10 @@ struct SettleContactsPass {
   Span<const Index> record;
   Span<const Id> other;
   Span<const ContactHistory> history;
-  Span<const ContactLoss> loss;
+  Span<const OpenContact> loss;
   VerletListView list;
   PairHistories histories;
-  ContactLoss* losses;  ///< by slots, may be null
+  OpenContact* losses;  ///< by slots, may be null
   BL_HD void operator()(Index i) const {
     if (had_row[i] != kNone) return;
     for (Index k = first_not_below(own, id[i]); k < own.size && own[k] == id[i]; ++k)
@@ -109,7 +109,7 @@ struct SettleContactsPass {
 
 void ArrivingContacts::send(const Migrants& migrants, Span<const Index> rows, const VerletListView& list,
                             bool listed, const PairHistories& histories, Span<const Id> id,
-                            const ContactLoss* losses) {
+                            const OpenContact* losses) {
   const Index grains = migrants.going().size;
   Buffer<Index> count(grains), before, places;
   const CountTouchingPass touching{migrants.going(), rows, list, histories, count};
@@ -134,7 +134,7 @@ void ArrivingContacts::send(const Migrants& migrants, Span<const Index> rows, co
 
 void ArrivingContacts::settle(Range grains, Span<const Index> order, Span<const Id> id,
                               const VerletListView& list, const PairHistories& histories,
-                              ContactLoss* losses) {
+                              OpenContact* losses) {
   if (own_.size() == 0) return;
   const Range come{records_.owned().end, records_.size()};
   for_each(grains,
@@ -182,7 +182,7 @@ void SolidSolver::relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>&
   if (spectra_) spectra_->put_aside();
   build_list(grains, grid);
   if (!listed) return;
-  ContactLoss* const losses = spectra_ ? spectra_->of_pairs().data() : nullptr;
+  OpenContact* const losses = spectra_ ? spectra_->of_pairs().data() : nullptr;
   const CarryHistoryPass carry{.from = old_list_.view(),
                                .to = list_.view(),
                                .long_rows = long_rows_.view(),

@@ -62,8 +62,8 @@ SolidParameters solid_parameters(const Config& config) {
       .reflect = config.domain.reflect,
       .plane = config.domain.two_d,
       .energy = config.out.energy || config.out.spectra || config.wall.wears(),
-      .spectra = {config.out.spectra_from, config.out.spectra ? int(config.out.spectra_bins) : 0,
-                  config.out.spectra_sizes},
+      .spectra = {config.out.spectra_from, config.out.spectra_from_force,
+                  config.out.spectra ? int(config.out.spectra_bins) : 0, config.out.spectra_sizes},
       .shear_rate = config.domain.shear_rate,
       .single_forces = config.out.contacts != ContactFrames::none};
   for (const GrainMaterial& a : p.materials)

@@ -55,9 +55,10 @@ struct SolidParameters {
   bool energy = false;  ///< its flows are counted
   struct Spectra {
     double from = 0;                 ///< J
+    double from_force = 0;           ///< N
     int per_decade = 0;              ///< bins; 0: no spectra
     std::vector<double> sizes = {};  ///< diameters between classes, m
-  } spectra = {};                    ///< of what contacts dissipate
+  } spectra = {};                    ///< of what contacts dissipate, and of their peaks
   std::vector<WearGrid> wear = {};   ///< [bodies]; empty: of none
   double shear_rate = 0;             ///< of a sheared box, 1/s; 0: none
   bool single_forces = false;        ///< of contacts are recorded at the end of a step

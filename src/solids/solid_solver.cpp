@@ -61,7 +61,8 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
   choose_flow_law();
-  if (parameters.energy) books_ = std::make_unique<EnergyBooks>(most_energy(parameters));
+  if (parameters.energy)
+    books_ = std::make_unique<EnergyBooks>(most_energy(parameters), grains, lubricates());
   if (parameters.spectra.per_decade > 0)
     spectra_ = std::make_unique<SpectraBooks>(parameters, grains, walls.contacts() > 0);
   if (!parameters.wear.empty()) wear_ = std::make_unique<WearBooks>(parameters);
@@ -83,7 +84,8 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
   std::vector<const FieldBase*> out;
   if (wall_contacts_) out.push_back(wall_contacts_.get());
   for (const auto& memory : wall_memory_) out.push_back(memory.get());
-  if (spectra_ && spectra_->field()) out.push_back(spectra_->field());
+  if (books_ && books_->film_field()) out.push_back(books_->film_field());
+  if (spectra_ && wall_contacts_) out.insert(out.end(), {spectra_->wall_peaks(), spectra_->wall_losses()});
   return out;
 }
 
@@ -157,6 +159,7 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
     of_grains_.resize(g.size());
     for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
+    if (books_) count_film_flows(g, poses, dt);
   }
   if (!parameters_.contacts) return pass;
   if (wall_list_.size() > 0) {

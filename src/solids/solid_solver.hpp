@@ -146,7 +146,7 @@ class SolidSolver {
                       (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
             .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
                                                      (books_ ? sizeof(ContactAction) : 0) +
-                                                     (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
+                                                     (spectra_ ? 2 * sizeof(OpenContact) : 0) +
                                                      (forces_ ? sizeof(Real3) : 0)))};
   }
 
@@ -282,6 +282,8 @@ class SolidSolver {
     count_pair_flows_ = &SolidSolver::count_pair_flows<Law>;
   }
   void choose_flow_law();
+  /// The same of lubrication, after it was evaluated.
+  void count_film_flows(const GrainStore& grains, const BodyPose* poses, double dt);
   void end_books(const GrainStore& grains, const GrainKick& kick, int substeps);
   KickFlowPass kick_flow(const GrainStore& grains, double dt, const GrainKick& kick, const Vec3d& gravity,
                          bool begins) const;

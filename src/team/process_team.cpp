@@ -30,6 +30,7 @@ enum class Command : int {
   rheology,
   diagnostics,
   spectra,
+  spectra_peaks,
   measure,
   begin_interval,
   losses,
@@ -112,6 +113,9 @@ class ProcessTeam final : public Simulation {
   }
   std::vector<std::vector<Quantity>> spectra() override {
     return run(packed(Command::spectra), [&] { return own_->spectra(); });
+  }
+  std::vector<std::vector<Quantity>> spectra_peaks() override {
+    return run(packed(Command::spectra_peaks), [&] { return own_->spectra_peaks(); });
   }
   std::vector<Quantity> measure(const ProbeConfig& probe) override {
     return run(packed(Command::measure, probe.name), [&] { return own_->measure(probe); });
@@ -223,6 +227,9 @@ class Server {
         break;
       case Command::spectra:
         part_->spectra();
+        break;
+      case Command::spectra_peaks:
+        part_->spectra_peaks();
         break;
       case Command::measure:
         part_->measure(probe(of.next<std::string>()));

@@ -78,6 +78,9 @@ class TeamSimulation final : public Simulation {
   std::vector<std::vector<Quantity>> spectra() override {
     return first_of([](Simulation& s) { return s.spectra(); });
   }
+  std::vector<std::vector<Quantity>> spectra_peaks() override {
+    return first_of([](Simulation& s) { return s.spectra_peaks(); });
+  }
   std::vector<Quantity> measure(const ProbeConfig& probe) override {
     return first_of([&](Simulation& s) { return s.measure(probe); });
   }

@@ -53,6 +53,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<FieldView> fields(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
   std::vector<std::vector<Quantity>> spectra() override;
+  std::vector<std::vector<Quantity>> spectra_peaks() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
   void begin_interval(const ProbeConfig& probe) override;
   std::vector<Loss> losses() override;

@@ -208,12 +208,6 @@ INSTANTIATE_TEST_SUITE_P(
               "these sizes"},
         Wrong{"count = 500", "packing_fraction = 1.1",
               "dam.toml:20: grain.fill.packing_fraction = 1.1 must be > 0 and <= 1"},
-        Wrong{"every = 0.01", "every = 0.01\nenergy = true\n[lubrication]\nforces = \"normal\"",
-              "dam.toml:25: out.energy = true must be false with lubrication.forces, whose losses are not "
-              "counted"},
-        Wrong{"every = 0.01", "every = 0.01\nspectra = true\n[lubrication]\nforces = \"normal\"",
-              "dam.toml:25: out.spectra = true must be false with lubrication.forces, whose losses are not "
-              "counted"},
         Wrong{"every = 0.01", "every = 0.01\nspectra = true\nspectra_sizes = [0.002, 0.001]",
               "dam.toml:26: out.spectra_sizes = [0.002, 0.001] must be up to 7 diameters in rising order"},
         Wrong{"[grain]\nd = 0.002", "wear = \"archard\"\n[grain]\nd = 0.002",

@@ -99,6 +99,7 @@ class FakeSimulation : public Simulation {
       rows.push_back({{"from", "J", 1e-3 * k}, {"count", "-", double(steps_)}});
     return rows;
   }
+  std::vector<std::vector<Quantity>> spectra_peaks() override { return spectra(); }
   std::vector<Quantity> measure(const ProbeConfig& probe) override { return {{probe.name, "m", time_ / 3}}; }
   void begin_interval(const ProbeConfig& probe) override { intervals.push_back({probe.name, time_}); }
   std::vector<Loss> losses() override { return {{"fluid", "z+", 1, 0.125, 0.3}}; }

@@ -47,8 +47,9 @@ class RunFolder : public ::testing::Test {
     out.finish(s, "completed", {2.0, 100});
   }
   void expect_same_results(const fs::path& a, const fs::path& b) {
-    for (const char* name : {"diagnostics.csv", "probes/gauge.csv", "spectra.csv", "fluid.xdmf",
-                             "grains.xdmf", "walls.xdmf", "contacts.xdmf", "checkpoints/step_000000025.h5"})
+    for (const char* name :
+         {"diagnostics.csv", "probes/gauge.csv", "spectra.csv", "spectra_peaks.csv", "fluid.xdmf",
+          "grains.xdmf", "walls.xdmf", "contacts.xdmf", "checkpoints/step_000000025.h5"})
       EXPECT_EQ(read_file(a / name), read_file(b / name)) << name;
     for (const char* name : {"fluid.vtkhdf", "grains.vtkhdf", "walls.vtkhdf", "contacts.vtkhdf"})
       EXPECT_EQ(FrameFile(a / name).times(), FrameFile(b / name).times()) << name;

@@ -452,7 +452,10 @@ std::vector<RankCase> rank_cases() {
       {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
       {"slurry, one way, mirrored walls", kDam + kSlurry, {"couple.mode=one_way", "wall.type=mdbc"}, 30},
       {"slurry with a float", kTank + kFluid + kSingle + test::kFloat, {}, 30},
-      {"slurry with lubrication", kTank + kFluid + kSingle + kGate, {"lubrication.forces=all"}, 30},
+      {"slurry with lubrication",
+       kTank + kFluid + kSingle + kGate,
+       {"lubrication.forces=all", "out.spectra=true"},
+       30},
       {"grains and a body", kTank + kSingle + test::kFloat, {"out.energy=true"}, 60},
       {"sdpd and grains",
        kTank + kFluid + kSingle + kGate,
@@ -501,6 +504,7 @@ std::vector<std::byte> readings(Simulation& s, const Config& c) {
   for (const WallBody& body : c.wall.bodies)
     if (body.wear != WearLaw::none) add_store(s.snapshot("wear/" + body.name));
   for (const auto& row : s.spectra()) add(row);
+  for (const auto& row : s.spectra_peaks()) add(row);
   return out;
 }
 

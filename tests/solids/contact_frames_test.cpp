@@ -89,7 +89,7 @@ TEST(ContactFrames, ForcesOfLinesAddUpToThatOnEachGrain) {
   // what these have dissipated and what those that have ended make up all
   EXPECT_GT(lost, 0);
   for (const SpectrumBin& bin : b.solver->spectra()->bins())
-    lost += bin.energy.value() * b.solver->spectra()->layout().unit();
+    lost += bin.sum.value() * b.solver->spectra()->layout().unit();
   double all = 0;
   for (const Quantity& q : b.solver->energy_terms(*b.grains))
     if (q.name.starts_with("grain_dissipated")) all += q.value;

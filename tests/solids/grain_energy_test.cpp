@@ -30,7 +30,7 @@ Ended ended(const SolidSolver& solver) {
   for (std::size_t k = 0; k < bins.size(); ++k) {
     const int kind = int(k / std::size_t(layout.size()) % ContactSpectra::kKinds);
     if (kind == 0) sum.count += double(bins[k].count);
-    sum.energy[kind] += bins[k].energy.value() * layout.unit();
+    sum.energy[kind] += bins[k].sum.value() * layout.unit();
   }
   return sum;
 }
@@ -81,14 +81,47 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
 TEST(GrainEnergy, BinsHoldNegativeAndLargeEnergies) {
   SpectrumBin bin{};
   bin.enter(-5);
-  EXPECT_EQ(bin.energy.value(), -5);
+  EXPECT_EQ(bin.sum.value(), -5);
   bin.enter(7);
-  EXPECT_EQ(bin.energy.value(), 2);
+  EXPECT_EQ(bin.sum.value(), 2);
   for (int k = 0; k < 4; ++k) bin.enter(std::int64_t(1) << 62);
-  EXPECT_EQ(bin.energy.value(), std::ldexp(1.0, 64));
+  EXPECT_EQ(bin.sum.value(), std::ldexp(1.0, 64));
   for (int k = 0; k < 4; ++k) bin.enter(-(std::int64_t(1) << 62));
-  EXPECT_EQ(bin.energy.value(), 2);
+  EXPECT_EQ(bin.sum.value(), 2);
   EXPECT_EQ(bin.count, 10u);
+}
+
+/// Without damping a spring takes all the energy, m* v^2 / 2, with the force v sqrt(k m*).
+TEST(GrainEnergy, PeaksOfImpactsAreThoseOfASpring) {
+  GrainBench b;
+  b.config.out.spectra = true, b.config.out.spectra_from_force = 1e-3;
+  b.config.contact.normal = "linear", b.config.contact.k = 2000;
+  b.config.grain.e = 1;
+  b.plane({0, 0, -0.01}, {0, 0, 1});
+  const double R = b.R(), speed = 0.2, m = b.mass();
+  b.add({-1.001 * R, 0, 0}, {speed / 2, 0, 0});
+  b.add({1.001 * R, 0, 0}, {-speed / 2, 0, 0});
+  b.add({0.03, 0, -0.01 + 1.001 * R}, {0, 0, -speed});
+  b.start();
+  b.run(M_PI * std::sqrt(m / 2 / b.config.contact.k) / 200, 600);
+  ASSERT_EQ(ended(*b.solver).count, 2);
+  const ContactSpectra& layout = b.solver->spectra()->layout();
+  const auto peaks = b.solver->spectra()->peaks();
+  const auto expect = [&](std::uint32_t of, int kind, double exact, double from, double unit) {
+    const std::size_t first = (std::size_t(of) * ContactSpectra::kKinds + kind) * std::size_t(layout.size());
+    for (int k = 0; k < layout.size(); ++k) {
+      const SpectrumBin& bin = peaks[first + std::size_t(k)];
+      const bool here = k == int(layout.per_decade * std::log10(exact / from));
+      EXPECT_EQ(bin.count, here ? 1u : 0u) << of << ' ' << kind << ' ' << k;
+      if (here) EXPECT_NEAR(bin.sum.value() * unit / exact, 1, 1e-3) << of << ' ' << kind;
+    }
+  };
+  for (const bool wall : {false, true}) {
+    const double m_star = wall ? m : m / 2;
+    const std::uint32_t of = wall ? layout.on_wall(0, 0) : layout.of_pair(0, 0);
+    expect(of, 0, 0.5 * m_star * speed * speed, layout.from, layout.unit());
+    expect(of, 1, speed * std::sqrt(b.config.contact.k * m_star), layout.from_force, layout.unit_of_force());
+  }
 }
 
 /// Aslant, with spin and rolling friction, on another grain and on a wall that moves.
@@ -212,15 +245,22 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   Terms a = by_name(whole->diagnostics()), b = by_name(parted->diagnostics());
   EXPECT_GT(dissipated(a), 0);
   EXPECT_EQ(a, b);
-  const auto bins = whole->spectra(), again = parted->spectra();
-  ASSERT_EQ(bins.size(), again.size());
-  double count = 0;
-  for (std::size_t k = 0; k < bins.size(); ++k)
-    for (std::size_t n = 0; n < bins[k].size(); ++n) {
-      EXPECT_EQ(bins[k][n].value, again[k][n].value) << bins[k][n].name;
-      if (bins[k][n].name.ends_with("_count")) count += bins[k][n].value;
-    }
-  EXPECT_GT(count, 4);
+  const auto bins = whole->spectra();
+  for (const auto table : {&Simulation::spectra, &Simulation::spectra_peaks}) {
+    const auto rows = ((*whole).*table)(), again = ((*parted).*table)();
+    ASSERT_EQ(rows.size(), again.size());
+    double count = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (std::size_t n = 0; n < rows[k].size(); ++n) {
+        EXPECT_EQ(rows[k][n].value, again[k][n].value) << rows[k][n].name;
+        if (rows[k][n].name.ends_with("_count")) count += rows[k][n].value;
+      }
+    EXPECT_GT(count, 4);
+  }
+  const auto peaks = whole->spectra_peaks();
+  EXPECT_EQ(peaks[0][1].name, "from_force");
+  EXPECT_EQ(peaks[0][2].name, "grain_0_grain_0_energy_count");
+  EXPECT_EQ(peaks[0][5].name, "grain_0_grain_0_force_sum");
   const HostStore map = whole->snapshot("wear/plane"), map_again = parted->snapshot("wear/plane");
   EXPECT_GT(map.count, 1u);
   for (const HostArray& array : map.arrays)
@@ -228,6 +268,16 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   EXPECT_EQ(bins[0][1].name, "grain_0_grain_0_normal_count");
   EXPECT_EQ(bins[0][9].name, "grain_1_grain_1_normal_count");
   EXPECT_EQ(bins[0][17].name, "grain_1_on_plane_normal_count");
+
+  SavedState old = whole->save();  // of a build that did not keep peaks
+  std::erase_if(old.stores, [](const HostStore& store) { return store.name == "spectra_peaks"; });
+  for (HostStore& store : old.stores)
+    std::erase_if(store.arrays,
+                  [](const HostArray& a) { return a.name == "peak" || a.name == "wall_peaks"; });
+  auto later = make_coupled(c, setup);
+  later->load(old);
+  EXPECT_EQ(later->spectra()[0][9].value, bins[0][9].value);
+  EXPECT_EQ(later->spectra_peaks().size(), 1u) << "none yet";
 }
 
 /// By m U^2 (sin 2a - 3 sin^2 a), for tan a > 1/3 m U^2 cos^2 a / 3, each contact once [finnie60].
@@ -313,7 +363,7 @@ TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   const auto bins = b.solver->spectra()->bins();
   for (std::size_t k = std::size_t(layout.on_wall(0, 0)) * 2 * std::size_t(layout.size()); k < bins.size();
        ++k)
-    at_walls += bins[k].energy.value() * layout.unit();
+    at_walls += bins[k].sum.value() * layout.unit();
   for (std::size_t i = 0; i < counts.count(); ++i)
     for (std::uint32_t k = 0; k < 2 * counts.as<std::uint32_t>()[i]; ++k)
       at_walls += losses.as<double>()[2 * kMostWallContacts * i + k];

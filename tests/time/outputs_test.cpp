@@ -201,7 +201,7 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
   EXPECT_EQ(water.near_grains, 0u);
   EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real4));
   EXPECT_EQ(bed.near_grains, sizeof(Index) + 1 + 2 * sizeof(Real4));
-  EXPECT_EQ(spectra.near_grains - bed.near_grains, sizeof(ContactAction) + 2 * sizeof(ContactLoss));
+  EXPECT_EQ(spectra.near_grains - bed.near_grains, sizeof(ContactAction) + 2 * sizeof(OpenContact));
 }
 
 }  // namespace

@@ -276,6 +276,11 @@ class Run:
         return Table(self.folder / "spectra.csv")
 
     @functools.cached_property
+    def spectra_peaks(self) -> Table:
+        """Peak elastic energies and normal forces of contacts, as `spectra`."""
+        return Table(self.folder / "spectra_peaks.csv")
+
+    @functools.cached_property
     def probes(self) -> Tables:
         """Tables of probes by name."""
         return Tables(self.folder / "probes")

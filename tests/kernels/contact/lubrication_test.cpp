@@ -2,6 +2,7 @@
 #include "kernels/contact/lubrication.hpp"
 
 #include <array>
+#include <map>
 #include <random>
 
 #include "tests/support/grain_bench.hpp"
@@ -134,6 +135,58 @@ TEST(LubricationSmall, ActsAsFarAsTheDrierGrainIsWetAndOnWalls) {
   EXPECT_EQ(b.force(1).x, -b.force(2).x);
   EXPECT_NEAR(b.solver->body_loads(*b.grains, b.poses())[0].force().z / -by_wall, 1, 1e-5)
       << "the wall feels it";
+}
+
+/// On another grain, and aslant with spin on a wall that moves towards it and along itself, an advance a
+/// substep. Without damping of contacts it takes all that is lost head-on.
+TEST(LubricationSmall, WhatItTakesOfAnImpactIsInTheEnergyBooks) {
+  for (const bool wall : {false, true}) {
+    WetBench b(LubricationForces::all);
+    b.config.out.spectra = true;
+    b.config.grain.e = wall ? 0.7 : 1;
+    const double R = b.R(), speed = wall ? 1 : 0.5;
+    if (wall) {
+      b.plane({0, 0, -0.01}, {0, 0, 1});
+      b.motion = [](int, double t) {
+        BodyPose p;
+        p.v = {0.1, 0, 0.3}, p.translation = t * p.v;
+        return p;
+      };
+      b.add({0, 0, -0.01 + 2.1 * R}, {0.2, 0, -speed}, {0, 60, 20});
+    } else {
+      b.add({-1.6 * R, 0, 0}, {speed / 2, 0, 0});
+      b.add({1.6 * R, 0, 0}, {-speed / 2, 0, 0});
+    }
+    b.begin(std::vector<Real>(b.x.size(), Real(1)));
+    const auto kinetic = [&] {
+      const GrainTotals t = b.solver->totals(*b.grains);
+      EXPECT_EQ(t.contacts + t.wall_contacts, 0);
+      return t.kinetic + t.rotational;
+    };
+    const double before = kinetic(), dt = b.contact_time(speed, wall) / 40;
+    for (int k = 0; k < int(0.008 / speed * 0.5 / dt); ++k) b.run(dt, 1);
+    std::map<std::string, double> terms;
+    for (const Quantity& q : b.solver->energy_terms(*b.grains)) terms[q.name] = q.value;
+    const double films = terms["grain_dissipated_lubrication"], normal = terms["grain_dissipated_normal"];
+    const double lost = before - kinetic() + terms["grain_work_walls"];
+    EXPECT_GT(films, 0.3 * lost);
+    EXPECT_LT(std::abs(terms["grain_energy_residual"]), 5e-3 * lost) << wall;
+    std::uint64_t ended = 0;
+    double entered = 0;
+    const ContactSpectra& layout = b.solver->spectra()->layout();
+    for (const SpectrumBin& bin : b.solver->spectra()->bins())
+      ended += bin.count, entered += bin.sum.value() * layout.unit();
+    EXPECT_EQ(ended, 2u) << "one by normal force, and by sliding";
+    EXPECT_NEAR(entered, normal + terms["grain_dissipated_sliding"] + terms["grain_dissipated_rolling"],
+                1e-6 * lost);
+    if (wall) {  // does the work of what it changes of the momentum
+      const double work = b.mass() * dot(b.motion(0, 0).v, b.velocity(0) - b.v[0]);
+      EXPECT_GT(work, 0.1 * lost);
+      EXPECT_NEAR(terms["grain_work_walls"] / work, 1, 1e-4);
+    } else {
+      EXPECT_NEAR(films / lost, 1, 5e-3);
+    }
+  }
 }
 
 TEST(Lubrication, CloudKeepsMomentumAndAngularMomentum) {

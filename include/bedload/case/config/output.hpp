@@ -47,6 +47,7 @@ struct OutputConfig {
   bool spectra = false;                        ///< spectra of what contacts dissipate
   std::int64_t spectra_bins = 20;              ///< a decade
   double spectra_from = 1e-12;                 ///< lower edge of the first bin, J
+  double spectra_from_force = 1e-6;            ///< that of forces, N
   std::vector<double> spectra_sizes;           ///< diameters between classes of sizes, m; empty: one class
   Chosen<ContactFrames> contacts = ContactFrames::none;  ///< frames of single contacts of grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
