@@ -33,6 +33,7 @@ class EnergyBooks {
     of_pairs_.reserve_and_resize(slots);
     at_walls_.reserve_and_resize(wall_slots);
     course_.resize(drag ? grains : 0);
+    course_of_clumps_.resize(drag ? clumps : 0);
   }
   /// Adds what has flowed to these grains, and to those of other ranks, and to clumps, which every rank has.
   void end_advance(Range grains, int substeps) {
@@ -52,6 +53,7 @@ class EnergyBooks {
   EnergyFlow* of_clumps() { return of_clumps_.data(); }
   ContactAction* of_pairs() { return of_pairs_.data(); }
   ContactAction* at_walls() { return at_walls_.data(); }
+  ClumpCourse* course_of_clumps() { return course_of_clumps_.data(); }
   GrainCourse* course() { return course_.size() > 0 ? course_.data() : nullptr; }
 
   /// The terms and the residual; energy: of the grains now, J.
@@ -72,6 +74,7 @@ class EnergyBooks {
   Buffer<EnergyFlow> all_;                ///< sums of both
   Buffer<ContactAction> of_pairs_, at_walls_;
   Buffer<GrainCourse> course_;
+  Buffer<ClumpCourse> course_of_clumps_;
 };
 
 }  // namespace BL_SOLVER
