@@ -211,13 +211,38 @@ struct SumGainsPass {
   }
 };
 
+/// Drag on a clump at its centre of mass, constant over an advance.
+struct CentreDrag {
+  Vec3d velocity;          ///< of the fluid, m/s
+  double coefficient = 0;  ///< kg/s; 0: its grains have their own
+  Vec3d lever;             ///< of its grains' drag, by their coefficients, m
+  Relaxation slide;        ///< in half a substep
+  Vec3d impulse;           ///< in this advance so far, N s
+
+  /// Change of v in so many kicks of h (s), in which all else changes it by dv. m: mass, kg.
+  BL_HD Vec3d kicked(const Vec3d& v, const Vec3d& dv, double h, int kicks, double m) {
+    if (!(coefficient > 0)) return dv;
+    const Vec3d a = (1 / (kicks * h)) * dv;
+    Vec3d change;
+    for (int n = 0; n < kicks; ++n) {
+      const Vec3d by_drag = slide.drag(v + change, velocity, a, h);
+      change += by_drag + h * a;
+      impulse += m * by_drag;
+    }
+    return change;
+  }
+};
+
 /// Applies the momenta gained by its grains to a clump, within its constraints, then drifts it.
 struct MoveClumpsPass {
   ClumpView all;
   Span<const Index> first;  ///< of ClumpPieces
   const LoadSum* gained;
-  Vec3d fall;    ///< velocity that gravity gave the grains, m/s: it does not turn a clump
-  double drift;  ///< s
+  Vec3d fall;                  ///< velocity that gravity gave the grains, m/s: it does not turn a clump
+  double drift;                ///< s
+  CentreDrag* drag = nullptr;  ///< [clumps]; null: grains have their own
+  double h = 0;                ///< half a substep, s
+  int kicks = 0;               ///< of h, since clumps moved last
   BL_HD void operator()(Index c) const {
     if (first[c] == first[c + 1]) return;
     LoadSum sum = LoadSum::zero();
@@ -228,7 +253,9 @@ struct MoveClumpsPass {
     const RigidBody& k = all.body(c);
     const double m = all.mass(c);
     const Vec3d offset = all.turn(c).rotate(all.size[c] * all.offsets[all.kind[c]]);
-    all.v[c] += k.movable((1 / m) * sum.force());
+    Vec3d dv = k.movable((1 / m) * sum.force());
+    if (drag) dv = drag[c].kicked(all.v[c], dv, h, kicks, m);
+    all.v[c] += dv;
     all.angular_momentum[c] += k.turnable(sum.torque() - cross(offset, m * fall));
     if (drift == 0) return;
     all.x[c] += drift * all.v[c];

@@ -330,16 +330,28 @@ struct KickFlowPass {
   }
 };
 
-/// Work of gravity on clumps in a substep: at the centre of mass, which is not that of the masses of their
-/// grains.
+/// Motion of a clump, and what drag has given it, at the last look.
+struct ClumpCourse {
+  Vec3d v, impulse;  ///< m/s, N s
+};
+
+/// Work of gravity on clumps since the last look: at the centre of mass, which is not that of the masses of
+/// their grains. Also that of drag, where it acts there, as in KickFlowPass.
 struct ClumpFlowPass {
   ClumpView clumps;
-  Vec3d gravity;      ///< mean over the substep, m/s2
-  double dt;          ///< s
-  EnergyFlow* flows;  ///< [clumps]
+  Vec3d gravity;                     ///< mean over the substep, m/s2
+  double dt;                         ///< s; 0: drag alone
+  EnergyFlow* flows;                 ///< [clumps]
+  const CentreDrag* drag = nullptr;  ///< [clumps]; null: it acts on grains
+  ClumpCourse* course = nullptr;     ///< [clumps], with it
+  bool begins = false;               ///< notes how an advance starts
 
   BL_HD void operator()(Index c) const {
     flows[c].of[EnergyFlow::gravity] += dt * clumps.mass(c) * dot(gravity, clumps.v[c]);
+    if (!drag) return;
+    const ClumpCourse now{clumps.v[c], drag[c].impulse}, was = course[c];
+    if (!begins) flows[c].of[EnergyFlow::fluid] += 0.5 * dot(now.impulse - was.impulse, now.v + was.v);
+    course[c] = now;
   }
 };
 

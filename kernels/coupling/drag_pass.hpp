@@ -1,4 +1,5 @@
 #pragma once
+#include "kernels/bodies/clump_drag.hpp"
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/coupling/interpolation_pass.hpp"
 #include "kernels/coupling/own_wake.hpp"
@@ -57,11 +58,81 @@ BL_HD N slip_weight(const Vec3<N>& v_a, const Vec4<N>& by_slip) {
 struct DragBodies {
   VolumePerR3 volume_per_r3;
   Span<const Real> radius;
-  Span<const Real> clump_d;  ///< of the sphere of its clump's volume, m, 0: in no clump; empty: none is
+  Span<const Real> clump_d;  ///< of the sphere of its clump's volume, m, 0: it has its own; empty: all have
+  Span<const std::uint32_t> clump = {};  ///< of each grain 1 + its clump
+  Span<const MemberSum> fluid = {};      ///< of each clump, by FluidTerms
   BL_HD bool clumped(Index j) const { return clump_d && clump_d[j] > 0; }
   BL_HD Real diameter(Index j) const { return clumped(j) ? clump_d[j] : 2 * radius[j]; }
   BL_HD Real share(Index j) const {
     return clumped(j) ? Real(volume_per_r3(j)) * cube(radius[j]) / (kPi / 6 * cube(clump_d[j])) : Real(1);
+  }
+  /// Of the whole body, m3.
+  BL_HD Real volume(Index j) const {
+    return clumped(j) ? kPi / 6 * cube(clump_d[j]) : 4 * kPi / 3 * cube(radius[j]);
+  }
+};
+
+/// What the drag law knows of the fluid around a body.
+struct FluidAround {
+  Real slip;  ///< the mean of |u|, or the norm of the mean of u, m/s
+  Real fast;  ///< sum phi u2 / sum phi |u|, m/s; for local slip
+  Real eps, bed, rho;
+};
+
+/// Finds it for single grains, and for clumps as means over their grains, by wet volume.
+template <bool Local>
+struct FluidOfDrag {
+  DragBodies bodies;
+  Span<const Real> eps, bed_eps;
+  GrainSurroundings surroundings;
+
+  /// The mean of |u|, or the norm of the mean of u, at this grain, m/s.
+  BL_HD Real mean_slip(Index j) const {
+    const Real inv_S = surroundings.inv_S[j];
+    if constexpr (Local)
+      return inv_S * Real(surroundings.fast[j].weight);
+    else
+      return inv_S * norm(surroundings.flow[j].u);
+  }
+  BL_HD Real fast_slip(Index j) const {
+    if constexpr (Local)
+      return surroundings.fast_slip[j];
+    else
+      return 0;
+  }
+  BL_HD FluidAround operator()(Index j) const {
+    if (bodies.clumped(j) && Index(bodies.clump[j] - 1) < bodies.fluid.size) {
+      const MemberSum& sum = bodies.fluid[bodies.clump[j] - 1];
+      if (sum.a.w > 0) return of(sum);
+    }
+    return {mean_slip(j), fast_slip(j), eps[j], bed_eps[j], surroundings.rho[j]};
+  }
+
+ private:
+  BL_HD static FluidAround of(const MemberSum& sum) {
+    const double per = 1 / sum.a.w;
+    const Vec3d u = per * sum.a.xyz();
+    const Vec3d mean = per * sum.b.xyz();
+    return {Real(Local ? u.x : norm(u)), Real(Local ? u.y : 0.0), Real(mean.x), Real(mean.y), Real(mean.z)};
+  }
+};
+
+/// Terms of the means over a clump. a: the mean of u, or that of |u| and what FluidAround::fast is, and the
+/// weight; b: porosities and density.
+template <bool Local>
+struct FluidTerms {
+  FluidOfDrag<Local> fluid;
+  Span<const Real> wetness;
+  BL_HD MemberSum operator()(Index j) const {
+    if (!fluid.bodies.clumped(j)) return {};
+    const double weight = double(wetness[j]) * double(fluid.bodies.share(j));
+    if (!(weight > 0)) return {};
+    Vec3d u{double(fluid.mean_slip(j)), double(fluid.fast_slip(j)), 0};
+    if constexpr (!Local) u = Vec3d(fluid.surroundings.inv_S[j] * fluid.surroundings.flow[j].u);
+    u *= weight;
+    return {{u.x, u.y, u.z, weight},
+            {weight * double(fluid.eps[j]), weight * double(fluid.bed_eps[j]),
+             weight * double(fluid.surroundings.rho[j]), 0}};
   }
 };
 
@@ -73,24 +144,15 @@ struct DragLines {
   bool shares;  ///< whether grains displace fluid; else its velocity is the flux
   OwnWake wake;
   Span<const Real> shrink;  ///< of OwnAverages; empty: all have the kernel's length
-  DragBodies bodies;
-  Span<const Real> eps, bed_eps;
-  GrainSurroundings surroundings;
+  FluidOfDrag<Local> fluid;
 
-  /// The mean of |u|, or the norm of the mean of u, m/s.
-  BL_HD Real mean_slip(Index j) const {
-    const Real inv_S = surroundings.inv_S[j];
-    if constexpr (Local)
-      return inv_S * Real(surroundings.fast[j].weight);
-    else
-      return inv_S * norm(surroundings.flow[j].u);
-  }
   /// Near an orifice the law is evaluated with the porosity of the bed, at the actual flux.
-  BL_HD DragLine of(Index j, Real slip) const {
-    const Real d = bodies.diameter(j), rho = surroundings.rho[j], share = bodies.share(j);
+  BL_HD DragLine of(Index j) const {
+    const FluidAround at = fluid(j);
+    const Real d = fluid.bodies.diameter(j), rho = at.rho, share = fluid.bodies.share(j);
     const OwnWake own = shrink ? wake.with(shrink[j]) : wake;
-    const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(bodies.radius[j]));
-    const Real ratio = (shares ? eps[j] : Real(1)) / bed;
+    const Real bed = own.porosity(at.bed, fluid.bodies.volume(j));
+    const Real ratio = (shares ? at.eps : Real(1)) / bed;
     const auto by_law = [&](Real w) { return share * ratio * law.K(bed, d, rho, mu, ratio * w); };
     const auto coefficient = [&](Real w) {
       Real K = by_law(w);
@@ -100,9 +162,9 @@ struct DragLines {
       return K / (1 - own.fraction(K, undisturbed, bed, rho, mu));
     };
     if constexpr (Local)
-      return drag_line(coefficient, slip, surroundings.fast_slip[j]);
+      return drag_line(coefficient, at.slip, at.fast);
     else
-      return {coefficient(slip), 0};
+      return {coefficient(at.slip), 0};
   }
 };
 
@@ -123,15 +185,14 @@ struct DragPass {
   DragLevers levers;
 
   BL_HD void operator()(Index j) const {
-    const GrainSurroundings& surroundings = lines.surroundings;
+    const GrainSurroundings& surroundings = lines.fluid.surroundings;
     const Real wet = wetness[j], inv_S = surroundings.inv_S[j];
     FlowSums<> flow = surroundings.flow[j];
     Real k = 0;
     DragLine line{1, 0};
     if (wet > 0) {
-      const Real slip = lines.mean_slip(j);
-      const DragLine law_line = lines.of(j, slip);
-      k = law_line.at(slip);
+      const DragLine law_line = lines.of(j);
+      k = law_line.at(lines.fluid.mean_slip(j));
       if (k > 0) line = {law_line.still / k, law_line.slope / k};
     }
     drag.coefficient[j] = wet * k;
@@ -156,8 +217,8 @@ struct DragPass {
       levers.sum[j] = 1 + off_centre * spread;
     }
     if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)
-      drag.rot_coefficient[j] = wet * lines.bodies.share(j) *
-                                spin_drag(lines.bodies.diameter(j), surroundings.rho[j], lines.mu,
+      drag.rot_coefficient[j] = wet * lines.fluid.bodies.share(j) *
+                                spin_drag(lines.fluid.bodies.diameter(j), surroundings.rho[j], lines.mu,
                                           norm(drag.rotation[j] - omega[j]));
   }
 };

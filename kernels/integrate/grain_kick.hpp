@@ -22,7 +22,8 @@ struct GrainKick {
   Span<const Real3> fluid_torque = {};  ///< N m; where fluid flows around the grains
   DragView drag = {};
   Span<GrainRelaxation> relaxation = {};  ///< by `begin`
-  Span<const Real3> drive = {};           ///< N; empty: none
+  Span<const Real> clump_d = {};  ///< > 0: drag acts on the grain's clump instead; empty: on grains alone
+  Span<const Real3> drive = {};   ///< N; empty: none
   Edges edges = {};
 
   BL_HD bool wet() const { return bool(drag.coefficient); }
@@ -30,7 +31,8 @@ struct GrainKick {
   BL_HD void begin(Index i) const {
     if (!wet()) return;
     const double m = mass(i), inertia = 0.4 * m * radius[i] * radius[i];
-    relaxation[i] = {Relaxation(drag.coefficient[i] / m, h, exponential),
+    const double K = clump_d && clump_d[i] > 0 ? Real(0) : drag.coefficient[i];
+    relaxation[i] = {Relaxation(K / m, h, exponential),
                      Relaxation(drag.rot_coefficient[i] / inertia, h, exponential)};
   }
   /// Prefetches the input of KickedGrain for grain i.

@@ -294,13 +294,14 @@ bool OpenBoundaries::drop_one(std::size_t s, const GrainStore& grains, const Clu
       std::vector<Real> radii;
       for (const NewGrain& grain : come) radii.push_back(Real(grain.radius));
       const double size = Clumps::size_of(*shape, radii);
+      const std::uint32_t kind = clumps.kind_of_dropped(source.material());
       for (std::uint32_t n = 0; n < come.size(); ++n) {
         const ClumpSphere& of = shape->spheres[n];
         come[n].clump = std::uint32_t(all.clumps.size() + 1), come[n].member = n;
-        come[n].arm = size * Vec3d{of[0], of[1], of[2]}, come[n].clump_d = 2 * source.radius();
+        come[n].arm = size * Vec3d{of[0], of[1], of[2]},
+        come[n].clump_d = clumps.share_drag(kind) ? 2 * source.radius() : 0;
       }
-      all.clumps.push_back({0, clumps.kind_of_dropped(source.material()), size, places[k], source.velocity(),
-                            to_vec4(source.rotation())});
+      all.clumps.push_back({0, kind, size, places[k], source.velocity(), to_vec4(source.rotation())});
     }
     all.grains.insert(all.grains.end(), come.begin(), come.end());
     return true;

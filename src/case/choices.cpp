@@ -37,8 +37,8 @@ static_assert(
     "a choice of the coupling has no row");
 static_assert(kAllNamed<TimeIntegrator, Preset, Precision, Simd>, "a choice of the run has no row");
 static_assert(kAllNamed<ShapeKind, PipeEnds, WallShape, MotionKind, TableSpline, BodyMove, BodyTurn,
-                        OrificeShape, OutletPhase, OutletShape, GrainInletShape, SizeKind, GrainResolve,
-                        ProbeType, Phase, ForceSample, ContactFrames, BodyTables, WearLaw>,
+                        OrificeShape, OutletPhase, OutletShape, GrainInletShape, SizeKind, ClumpDrag,
+                        GrainResolve, ProbeType, Phase, ForceSample, ContactFrames, BodyTables, WearLaw>,
               "a choice of shapes, openings or outputs has no row");
 
 }  // namespace

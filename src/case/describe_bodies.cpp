@@ -63,6 +63,7 @@ void describe_clump(Parameters& p, ClumpConfig& c) {
      .range = above(0),
      .fallback = "that of the material",
      .presence = optional});
+  p("drag", &c.drag, {.meaning = "drag of the fluid on the clump"});
 }
 
 void describe_clumps_of(Parameters& p, std::string& clump, std::vector<double>& orientation) {

@@ -14,6 +14,7 @@
 #include "kernels/drag/registry.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "kernels/smoothing/top_hat.hpp"
+#include "src/solids/clumps.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -84,9 +85,7 @@ struct CountBent {
   Lines lines;
   Span<const Real> wetness;
   BL_HD Value identity() const { return 0; }
-  BL_HD Value operator()(Index j) const {
-    return wetness[j] > 0 && lines.of(j, lines.mean_slip(j)).limited ? 1 : 0;
-  }
+  BL_HD Value operator()(Index j) const { return wetness[j] > 0 && lines.of(j).limited ? 1 : 0; }
   BL_HD void combine(Value& into, const Value& v) const { into += v; }
 };
 
@@ -157,6 +156,16 @@ PushPass Coupling::push_pass(const FluidStore& fluid) {
   return {fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, {}, push_};
 }
 
+template <bool Local>
+FluidOfDrag<Local> Coupling::fluid_of_drag(const GrainStore& grains) {
+  return {.bodies = {matter_.volume_of(grains), grains.radius, grains.clump_d.span(),
+                     clumps_ ? clumps_->of_grains() : Span<const std::uint32_t>(),
+                     span_if(clumps_ != nullptr, fluid_of_clumps_)},
+          .eps = grains.eps,
+          .bed_eps = bed_eps_,
+          .surroundings = surroundings()};
+}
+
 template <bool Local, class Law>
 DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& grains) {
   return {.law = law,
@@ -164,10 +173,7 @@ DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& gra
           .shares = two_way_,
           .wake = wake_,
           .shrink = span_if(own_lengths(), shrink_),
-          .bodies = {matter_.volume_of(grains), grains.radius, grains.clump_d.span()},
-          .eps = grains.eps,
-          .bed_eps = bed_eps_,
-          .surroundings = surroundings()};
+          .fluid = fluid_of_drag<Local>(grains)};
 }
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
@@ -229,6 +235,11 @@ void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose
     });
   });
   for_each(grains.owned(), WetnessPass{S_dry_, S_wet_, wall_free_, inv_S_, grains.wetness});
+  if (clumps_)
+    with_flag(local_slip_, [&](auto local) {
+      clumps_->sum_over_members(FluidTerms<local>{fluid_of_drag<local>(grains), grains.wetness},
+                                fluid_of_clumps_);
+    });
   with_drag_law(
       drag_law_,
       [&](auto law) {

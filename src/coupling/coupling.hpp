@@ -56,6 +56,8 @@ struct StiffestDrag {
   Real lever;  ///< largest sum of DragLevers, -
 };
 
+class Clumps;
+
 /// Where grains are.
 struct GrainCells {
   CellGridView cells;
@@ -67,6 +69,9 @@ class Coupling {
  public:
   /// The walls of the fluid must outlive this.
   Coupling(const CouplingParameters& parameters, const Frame& frame, const WallGeometry& walls);
+
+  /// Before gather(), if grains of these clumps share their drag. They must outlive this.
+  void share_drag(Clumps& clumps) { clumps_ = &clumps; }
 
   /// Range of the interaction between grains and fluid, of the largest grains, m.
   double range() const { return farthest_; }
@@ -159,6 +164,8 @@ class Coupling {
     return {grains.lever_at_centre, grains.lever_off_centre, lever_sum_};
   }
   OrificeWeight orifice_weight() const { return {frame_, orifices_, dx_, h_c_}; }
+  template <bool Local>
+  FluidOfDrag<Local> fluid_of_drag(const GrainStore& grains);
   /// How drag follows slip, by the last gather.
   template <bool Local, class Law>
   DragLines<Law, Local> drag_lines(const Law& law, const GrainStore& grains);
@@ -204,6 +211,8 @@ class Coupling {
   Buffer<Index> beside_walls_;  ///< grains whose kernel they may cut, where they do not move
   Buffer<Vec3d> grain_places_;  ///< in the order of cells that is not theirs
   Buffer<Orifice> orifices_;
+  Clumps* clumps_ = nullptr;           ///< null: no grains share their drag
+  Buffer<MemberSum> fluid_of_clumps_;  ///< by the last gather
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;
   FilledRows beside_grains_;     ///< of grains_of_fluid_

@@ -82,7 +82,14 @@ std::vector<Index> order_by_id(HostStore& clumps) {
 
 Clumps::Clumps(const SolidParameters& parameters, const Frame& frame, GrainStore& grains)
     : kinds_(parameters.clumps), plane_(parameters.plane), frame_(frame), matter_(parameters.materials) {
+  std::vector<std::uint32_t> shares;
+  for (const ClumpKind& k : kinds_) {
+    shares.push_back(k.shares_drag ? 1 : 0);
+    shares_drag_ = shares_drag_ || k.shares_drag;
+  }
+  if (!shares_drag_) members_.term_a.leave_out(), members_.term_b.leave_out();
   if (!any()) return;
+  shares_.assign(shares);
   clump_ = std::make_unique<Field<std::uint32_t>>(grains, "clump", "-", Lifetime::kept);
   member_ = std::make_unique<Field<std::uint32_t>>(grains, "member", "-", Lifetime::kept);
   arm_ = std::make_unique<Field<Vec3d>>(grains, "clump_arm", "m", Lifetime::kept);
@@ -287,7 +294,7 @@ void Clumps::sort(const GrainStore& grains) {
   reorder(order, grains);
   cut_pieces();
   for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
-  if (one_piece_) return;
+  if (one_piece_ && !shares_drag_) return;
   members_.resize(Index(grain_.size()));
   for_each(members_.owned(), FillIndex{place_});
 }
@@ -305,7 +312,28 @@ ClumpView Clumps::view() const {
           .arm = arm_->span()};
 }
 
-void Clumps::follow(GrainStore& g, const Velocities<Real3>& rest, double drift, const Vec3d& fall) {
+void Clumps::begin_drag(const GrainStore& g, double h, bool exponential, double held) {
+  if (!shares_drag_) return;
+  const ClumpView all = view();
+  sum_over_members(DragTerms{all, g.clump_d, drag_of(g)}, sums_);
+  h_ = h;
+  drag_.resize(store_.size());
+  for_each(store_.owned(), BeginDragPass{all, sums_, h, exponential, held, drag_.data()});
+}
+
+void Clumps::end_drag(GrainStore& g, double dt) const {
+  if (!shares_drag_) return;
+  for_each(g.owned(), ShareDragPass{.clump = of_grains(),
+                                    .clump_d = std::as_const(g.clump_d).span(),
+                                    .coefficient = std::as_const(g.drag_coefficient).span(),
+                                    .drag = drag_.data(),
+                                    .duration = dt,
+                                    .impulses = {g.impulse, g.spin_impulse},
+                                    .force = g.drag_force});
+}
+
+void Clumps::follow(GrainStore& g, const Velocities<Real3>& rest, double drift, const Vec3d& fall,
+                    int kicks) {
   if (!any() || store_.size() == 0) return;
   const ClumpView all = view();
   const GainPass gain{.all = all,
@@ -316,7 +344,14 @@ void Clumps::follow(GrainStore& g, const Velocities<Real3>& rest, double drift, 
                       .rest = {rest.v, rest.omega},
                       .momentum = members_.momentum,
                       .angular = members_.angular};
-  const MoveClumpsPass move{all, first_, gained_.data(), fall, drift};
+  const MoveClumpsPass move{.all = all,
+                            .first = first_,
+                            .gained = gained_.data(),
+                            .fall = fall,
+                            .drift = drift,
+                            .drag = kicks > 0 && shares_drag_ ? drag_.data() : nullptr,
+                            .h = h_,
+                            .kicks = kicks};
   const FollowPass grains{all, frame_, g.x, {g.v, g.omega}, rest};
   if (in_one_pass()) return for_each(store_.owned(), ClumpPass{gain, begin_, move, grains});
   for_each(members_.owned(), gain);
@@ -378,9 +413,12 @@ void Clumps::save(std::vector<HostStore>& stores) const {
   stores.push_back(std::move(clumps));
 }
 
-void Clumps::load(const HostStore& clumps, const GrainStore& grains) {
+void Clumps::load(const HostStore& clumps, GrainStore& grains) {
   store_.load(clumps);
   measure(grains);
+  if (grains.clump_d.used())
+    for_each(grains.owned(), ChooseDragPass{clump_->span(), store_.kind.span(), shares_, store_.scale.span(),
+                                            grains.clump_d});
 }
 
 }  // namespace BL_SOLVER

@@ -7,6 +7,7 @@
 #include "bedload/host_data.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/grains.hpp"
+#include "kernels/bodies/clump_drag.hpp"
 #include "kernels/bodies/clumps.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/parameters.hpp"
@@ -30,6 +31,9 @@ struct MemberStore : Store {
   Field<std::uint32_t> slot{*this, "slot", "-", Lifetime::kept};
   Field<Vec3d> momentum{*this, "momentum", "N s", Lifetime::derived};
   Field<Vec3d> angular{*this, "angular", "N m s", Lifetime::derived};
+  // of MemberSum; left out where none share drag
+  Field<Vec4<double>> term_a{*this, "term_a", "-", Lifetime::derived};
+  Field<Vec4<double>> term_b{*this, "term_b", "-", Lifetime::derived};
 };
 
 /// Puts clumps of a frame or checkpoint in the order of their ids. Returns where each has come to.
@@ -76,12 +80,39 @@ class Clumps {
   /// Bytes of a grain.
   std::size_t scratch_bytes() const {
     if (!any()) return 0;
-    return sizeof(Index) + (in_one_pass() ? 0 : members_.entry_bytes() + sizeof(Index));
+    return sizeof(Index) + (in_one_pass() && !shares_drag_ ? 0 : members_.entry_bytes() + sizeof(Index));
   }
+
+  /// Whether the grains of any clumps share one drag, and those of this kind. Which do, GrainStore::clump_d
+  /// says.
+  bool share_drag() const { return shares_drag_; }
+  bool share_drag(std::uint32_t kind) const { return kinds_[kind].shares_drag; }
+  /// Sums over the grains of each clump that share their drag, rounded alike on any number of ranks.
+  template <class Terms>
+  void sum_over_members(const Terms& terms, Buffer<MemberSum>& out) {
+    for_each(members_.owned(), MemberTermsPass<Terms>{grain_, terms, members_.term_a, members_.term_b});
+    members_.term_a.set_shared(false), members_.term_b.set_shared(false);
+    members_.share({&members_.term_a, &members_.term_b});
+    out.resize(store_.size());
+    for_each(store_.owned(), SumMembersPass{{place_, begin_, first_},
+                                            store_.kind.span(),
+                                            shares_,
+                                            std::as_const(members_.term_a).span(),
+                                            std::as_const(members_.term_b).span(),
+                                            out});
+  }
+  /// Before an advance of substeps 2 h (s), or of the time `held` without motion.
+  void begin_drag(const GrainStore& grains, double h, bool exponential, double held = 0);
+  /// After it, its duration being dt (s).
+  void end_drag(GrainStore& grains, double dt) const;
+  /// Of each clump; null if none shares it.
+  CentreDrag* drag() { return shares_drag_ ? drag_.data() : nullptr; }
 
   /// Moves the clumps after every grain was kicked, and drifted by `drift` (s), on its own; the grains
   /// follow. Rest: low parts of the velocities, may be empty. fall: what gravity added to velocities, m/s.
-  void follow(GrainStore& grains, const Velocities<Real3>& rest, double drift, const Vec3d& fall = {});
+  /// kicks: of half a substep, in which drag acts.
+  void follow(GrainStore& grains, const Velocities<Real3>& rest, double drift, const Vec3d& fall = {},
+              int kicks = 0);
   /// Sets the velocities of the clumps to zero, as those of their grains are.
   void stop();
 
@@ -102,7 +133,7 @@ class Clumps {
   /// After `grains` has been saved, whose clumps get other numbers there.
   void save(std::vector<HostStore>& stores) const;
   /// After `grains` has been loaded.
-  void load(const HostStore& clumps, const GrainStore& grains);
+  void load(const HostStore& clumps, GrainStore& grains);
 
  private:
   /// Mass and inertia of the kinds, of size 1 m.
@@ -124,9 +155,14 @@ class Clumps {
   mutable ClumpStore store_;
   Buffer<RigidBody> constants_;
   Buffer<Vec3d> offsets_;
-  Buffer<Index> spheres_;                ///< of each kind
-  Buffer<std::uint32_t> shaped_;         ///< of ClumpKeyPass
-  bool one_piece_ = true;                ///< every clump is
+  Buffer<Index> spheres_;         ///< of each kind
+  Buffer<std::uint32_t> shaped_;  ///< of ClumpKeyPass
+  bool one_piece_ = true;         ///< every clump is
+  bool shares_drag_ = false;
+  Buffer<std::uint32_t> shares_;  ///< of each kind: its grains share one drag
+  double h_ = 0;                  ///< of begin_drag
+  Buffer<MemberSum> sums_;
+  Buffer<CentreDrag> drag_;
   MemberStore members_;                  ///< none where ClumpPass does without
   Buffer<Index> grain_;                  ///< of each member that this rank has
   Buffer<Index> slot_;                   ///< of PlaceClumpsPass and SlotPass

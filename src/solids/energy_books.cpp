@@ -80,8 +80,20 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
                                                   .wear = wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   for_each(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
-  if (clumps_.any() && dt > 0)
-    for_each(clumps_.store().owned(), ClumpFlowPass{clumps_.view(), gravity, dt, books_->of_clumps()});
+  count_clump_flows(dt, kick, gravity, dt == 0);
+}
+
+void SolidSolver::count_clump_flows(double dt, const GrainKick& kick, const Vec3d& gravity, bool begins) {
+  if (!clumps_.any()) return;
+  const CentreDrag* const drag = kick.wet() ? clumps_.drag() : nullptr;
+  if (dt == 0 && !drag) return;
+  for_each(clumps_.store().owned(), ClumpFlowPass{.clumps = clumps_.view(),
+                                                  .gravity = gravity,
+                                                  .dt = dt,
+                                                  .flows = books_->of_clumps(),
+                                                  .drag = drag,
+                                                  .course = books_->course_of_clumps(),
+                                                  .begins = begins});
 }
 
 void SolidSolver::count_film_flows(const GrainStore& g, const BodyPose* poses, double dt) {
@@ -128,6 +140,7 @@ void SolidSolver::let_in(const GrainStore& g, Range come, Index clumps) {
 
 void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick, int substeps) {
   if (kick.wet()) for_each(g.owned(), kick_flow(g, 0, kick, {}, false));
+  count_clump_flows(0, kick, {}, false);
   books_->end_advance(g.owned(), substeps);
 }
 

@@ -41,6 +41,7 @@ class EnergyBooks {
     of_pairs_.reserve_and_resize(slots);
     at_walls_.reserve_and_resize(wall_slots);
     course_.resize(drag ? grains : 0);
+    course_of_clumps_.resize(drag ? clumps : 0);
   }
   /// Adds what has flowed to these grains, and to those of other ranks, and to clumps, which every rank has.
   void end_advance(Range grains, int substeps) {
@@ -62,6 +63,7 @@ class EnergyBooks {
   ContactAction* at_walls() { return at_walls_.data(); }
   FilmAction* films() { return films_->buffer().data(); }  ///< only with lubrication
   const FieldBase* film_field() const { return films_.get(); }
+  ClumpCourse* course_of_clumps() { return course_of_clumps_.data(); }
   GrainCourse* course() { return course_.size() > 0 ? course_.data() : nullptr; }
 
   /// The terms and the residual; energy: of the grains now, J.
@@ -83,6 +85,7 @@ class EnergyBooks {
   Buffer<ContactAction> of_pairs_, at_walls_;
   Buffer<GrainCourse> course_;
   std::unique_ptr<Field<FilmAction>> films_;  ///< null without lubrication
+  Buffer<ClumpCourse> course_of_clumps_;
 };
 
 }  // namespace BL_SOLVER

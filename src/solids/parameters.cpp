@@ -81,14 +81,16 @@ SolidParameters solid_parameters(const Config& config) {
                         .material = g.material_of(k),
                         .shape = g.clump_of(g.fills[k])->shape,
                         .density = g.density(g.fills[k]),
-                        .spheres = std::uint32_t(g.clump_of(g.fills[k])->shape.spheres.size())});
+                        .spheres = std::uint32_t(g.clump_of(g.fills[k])->shape.spheres.size()),
+                        .shares_drag = g.clump_of(g.fills[k])->shares_drag()});
   for (const ClumpConfig& clump : g.clumps)
     for (const std::string& of : clump.dropped)
       p.clumps.push_back({.fill = -1,
                           .material = g.material_of_dropped(clump.name, of),
                           .shape = clump.shape,
                           .density = g.density(clump.name, of),
-                          .spheres = std::uint32_t(clump.shape.spheres.size())});
+                          .spheres = std::uint32_t(clump.shape.spheres.size()),
+                          .shares_drag = clump.shares_drag()});
   return p;
 }
 

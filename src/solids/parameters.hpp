@@ -24,6 +24,7 @@ struct ClumpKind {
   std::optional<ClumpShape> shape = {};  ///< none: the fill is one body
   double density = 0;                    ///< of a shape, kg/m3
   std::uint32_t spheres = 0;             ///< of each; counted from the grains where the fill is one body
+  bool shares_drag = false;              ///< its grains have the drag of one sphere
 };
 
 /// Patches of a wall body, at t = 0.

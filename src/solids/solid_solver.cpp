@@ -222,6 +222,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                                  .drag = drag_of(std::as_const(g)),
                                  .impulses = {g.impulse, g.spin_impulse},
                                  .drag_force = g.drag_force});
+    if (wet_) clumps_.begin_drag(g, 0, true, dt), clumps_.end_drag(g, dt);
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
@@ -245,6 +246,8 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     kick.fluid_force = g.fluid_force;
     kick.drag = drag_of(std::as_const(g));
     kick.relaxation = relaxation_;
+    if (clumps_.share_drag()) kick.clump_d = std::as_const(g.clump_d).span();
+    clumps_.begin_drag(g, kick.h, kick.exponential);
   }
   if (fluid_torque_) {
     kick.fluid_force = std::as_const(g.fluid_force);
@@ -259,7 +262,10 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                                     .now = {g.v, g.omega},
                                     .rest = rest,
                                     .impulses = {g.impulse, g.spin_impulse}});
-  clumps_.follow(g, rest, tau, kick.h * kick.gravity);
+  const auto follow = [&](double drift, int kicks) {
+    clumps_.follow(g, rest, drift, kicks * kick.h * kick.gravity, wet_ ? kicks : 0);
+  };
+  follow(tau, 1);
   share_motion(g);
   for (int s = 1; s <= substeps; ++s) {
     if (books_)
@@ -272,12 +278,13 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
     if (s < substeps)
-      clumps_.follow(g, rest, tau, tau * kick.gravity), share_motion(g);
+      follow(tau, 2), share_motion(g);
     else
-      clumps_.follow(g, rest, 0, kick.h * kick.gravity), g.v.set_shared(false), g.omega.set_shared(false);
+      follow(0, 1), g.v.set_shared(false), g.omega.set_shared(false);
     if (free) free->substep(s), record_loads(s, *free);
   }
   if (books_) end_books(g, kick, substeps);
+  if (wet_) clumps_.end_drag(g, dt);
 }
 
 template <class Law>

@@ -275,6 +275,7 @@ class SolidSolver {
   /// Flows of energy in a substep dt, before its contacts are evaluated; gravity: its mean, m/s2.
   void count_flows(const GrainStore& grains, const BodyPose* poses, double dt, const GrainKick& kick,
                    const Vec3d& gravity);
+  void count_clump_flows(double dt, const GrainKick& kick, const Vec3d& gravity, bool begins);
   template <class Law>
   void count_pair_flows(const GrainStore& grains, double dt, const OpenLosses& losses);
   template <class Law>

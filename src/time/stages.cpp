@@ -167,12 +167,14 @@ void Stepper::interpolate(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
   begin(now, "interpolate", Part::coupling, [&] {
-    return Access{
+    Access a{
         .near = {&f.xp, &f.v_rho, &f.eos_state, &f.eps, &f.stress_acceleration, &f.solid_factor, &f.x, &g.xp},
         .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
         .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient,
                    &g.eps, &g.wetness, &g.x_before, &g.still, &g.by_slip, &g.lever_at_centre,
                    &g.lever_off_centre, &f.drag_rate}};
+    if (std::as_const(*solid_solver_).clumps().share_drag()) a.near += std::exchange(a.reads, {});
+    return a;
   });
   coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step);
 }

@@ -68,7 +68,9 @@ void put_grains(const Config& config, const Setup::Grains& g, const Taken& some,
   set(grains.eps, [](Index) { return Real(1); });
   set(grains.clump_d, [&](Index i) {
     const std::uint32_t clump = some[i] < g.clump.size() ? g.clump[some[i]] : 0;
-    return clump > 0 ? Real(g.clumps[clump - 1].d) : Real(0);
+    if (clump == 0) return Real(0);
+    const Setup::Grains::Clump& of = g.clumps[clump - 1];
+    return config.grain.clump_of(config.grain.fills[of.fill])->shares_drag() ? Real(of.d) : Real(0);
   });
 }
 

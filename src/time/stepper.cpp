@@ -91,6 +91,7 @@ Stepper::Stepper(const Config& config, State& state)
     coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
     fluid_solver_->divide_with(grains_, grain_grid_, coupling_->range() + solid_solver_->skin() / 2);
     solid_solver_->follow();
+    if (Clumps& clumps = solid_solver_->clumps(); clumps.share_drag()) coupling_->share_drag(clumps);
   }
   if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
   if (!has_fluid() || !fluid_solver_->pays_for_walls()) walls_.work.leave_out();

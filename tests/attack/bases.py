@@ -816,6 +816,7 @@ file = "drop.txt"
 name = "stone"
 shape = "rock"
 count = 8
+drag = "members"
 [[shape]]
 name = "rock"
 kind = "box"

@@ -155,6 +155,8 @@ TEST(ClumpCase, SaysWhatIsWrong) {
   };
   expect(with("clump = \"rod\"", "clump = \"road\""),
          "grain.fill.clump = \"road\" must name a clump; this case has rod");
+  expect(with("[1, 0, 0, 1]]", "[1, 0, 0, 1]]\ndrag = \"sphere\""),
+         "clump.drag = \"sphere\" must be one of clump, members");
   expect(with("[1, 0, 0, 1]]", "[1, 0, 0, 0]]"), "clump.spheres = [.., r = 0] must have radii > 0");
   expect(with("[1, 0, 0, 1]]", "[1, 0, 0]]"), "must be a list of spheres [[x, y, z, r], ...]");
   expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", ""), "clump.spheres must be given");

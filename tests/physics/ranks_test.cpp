@@ -338,6 +338,25 @@ count = 300
 [[grain.fill.sizes]]
 d = 0.004
 )";
+/// Of this slurry, with rods that share their drag, and some of which each sphere has its own.
+const std::string kRodsOfSlurry = R"([[clump]]
+name = "rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
+[[clump]]
+name = "loose rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
+drag = "members"
+[[grain.fill]]
+min = [0, 0, 0.08]
+max = [0.1, 0.06, 0.11]
+count = 10
+clump = "rod"
+[[grain.fill]]
+min = [0, 0, 0.08]
+max = [0.1, 0.06, 0.11]
+count = 5
+clump = "loose rod"
+)";
 /// Of this slope, with rods among the grains.
 const std::string kRods = R"([[clump]]
 name = "rod"
@@ -450,6 +469,7 @@ std::vector<RankCase> rank_cases() {
       {"slurry of large and small grains", kDam + kTwoSizesOfSlurry, {}, 30},
       {"bed with a rigid group", test::kBed + kGate, {"out.energy=true"}, 30},
       {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
+      {"slurry with clumps", kDam + kSlurry + kRodsOfSlurry, {"out.energy=true", "couple.slip=local"}, 30},
       {"slurry, one way, mirrored walls", kDam + kSlurry, {"couple.mode=one_way", "wall.type=mdbc"}, 30},
       {"slurry with a float", kTank + kFluid + kSingle + test::kFloat, {}, 30},
       {"slurry with lubrication",

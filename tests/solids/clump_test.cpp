@@ -374,6 +374,109 @@ positions = [[0.01, 0.04, 0.03]]
   EXPECT_NEAR((buoyancy[0].z + buoyancy[1].z + buoyancy[2].z) / buoyancy[3].z, 1, 0.1);
 }
 
+/// Fluid at rest, ten times as viscous as glycerol-water, in a periodic box without gravity. one_way: the
+/// grains do not act on it.
+std::string at_rest(const std::string& rest, bool one_way = true) {
+  return std::string(R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.06]
+periodic = [true, true, true]
+[time]
+end = 1
+[out]
+every = 1
+energy = true
+[fluid]
+dx = 0.006
+mu = 0.1
+vmax = 0.1
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.06]
+[drag]
+law = "stokes"
+)") + (one_way ? "[couple]\nmode = \"one_way\"\n" : "") +
+         R"([grain]
+d = 0.004
+E = 1e6
+[[clump]]
+name = "ball"
+spheres = [[1, 2, 3, 4]]
+)" + rest;
+}
+std::string clump(const std::string& name, const std::string& spheres, const std::string& drag) {
+  return "[[clump]]\nname = \"" + name + "\"\nspheres = " + spheres + "\ndrag = \"" + drag + "\"\n";
+}
+const std::string kRodSpheres = "[[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]",
+                  kDropSpheres = "[[0, 0, 0, 1], [0.9, 0, 0, 0.6], [1.2, 0.3, 0, 0.5]]";
+
+TEST(Clump, FallsAtTheSpeedOfItsVolumeOrOfItsSpheres) {
+  const double a = 2, d = 0.004, mass = 2500 * M_PI / 6 * d * d * d;
+  for (const std::string drag : {"clump", "members"}) {
+    const Config c = config_of(at_rest(clump("rod", kRodSpheres, drag) + R"([[grain.fill]]
+positions = [[0.03, 0.03, 0.03]]
+clump = "rod"
+[drive]
+f = [0, 0, -2]
+mode = "mass"
+on = "grains"
+)"));
+    auto s = started(c);
+    run_until(*s, 0.3);
+    double of_spheres = 0;
+    for (const ClumpSphere& sphere : c.grain.clumps[1].shape.spheres) of_spheres += 2 * sphere[3];
+    EXPECT_GT(of_spheres, 1.5);
+    const double K = 3 * M_PI * 0.1 * d * (drag == "clump" ? 1 : of_spheres);
+    EXPECT_NEAR(vector(of_clumps<3>(*s, "velocity")[0]).z / (-a * mass / K), 1, 0.01) << drag;
+  }
+}
+
+TEST(Clump, DragActsAtItsCentre) {
+  const Config c = config_of(at_rest(clump("drop", kDropSpheres, "clump") + R"([[grain.fill]]
+positions = [[0.03, 0.03, 0.03]]
+velocity = [0.02, 0, 0.01]
+clump = "drop"
+orientation = [20, 50, 0]
+)"));
+  ASSERT_GT(norm(c.grain.clumps[1].shape.offset), 0.01) << "its spheres' centre is not that of its mass";
+  auto s = started(c);
+  run_until(*s, 0.02);
+  const double k = 18 * 0.1 / (2500 * 0.004 * 0.004);  // 1/s
+  EXPECT_NEAR(
+      norm(vector(of_clumps<3>(*s, "velocity")[0])) / (std::hypot(0.02, 0.01) * std::exp(-k * s->time())), 1,
+      0.01);
+  EXPECT_LT(norm(vector(of_clumps<3>(*s, "angular_velocity")[0])), tolerance(1e-9, 1e-4, 1e-4));
+}
+
+/// Drops that hit each other in fluid that they stir.
+TEST(Clump, ExchangesMomentumWithTheFluidAndCountsItsWork) {
+  const Config c = config_of(at_rest(clump("drop", kDropSpheres, "clump") + R"([[grain.fill]]
+positions = [[0.025, 0.03, 0.03], [0.034, 0.03, 0.031], [0.03, 0.036, 0.03]]
+velocities = [[0.08, 0.01, 0], [-0.08, 0, 0], [0, -0.06, 0]]
+clump = "drop"
+)",
+                                     false));
+  auto whole = started(c);
+  const auto momentum = [](const std::vector<Quantity>& d) {
+    return vector_of(d, "grain_momentum") + vector_of(d, "fluid_momentum");
+  };
+  const auto before = whole->diagnostics();
+  const double p = 3 * 2500 * M_PI / 6 * std::pow(0.004, 3) * 0.08;
+  ASSERT_GT(norm(vector_of(before, "grain_momentum")), 0.1 * p);
+  run_until(*whole, 0.02);
+  const auto after = whole->diagnostics();
+  EXPECT_LT(norm(momentum(after) - momentum(before)), tolerance(1e-12, 1e-5, 1e-4) * p);
+  EXPECT_GT(norm(vector_of(after, "fluid_momentum") - vector_of(before, "fluid_momentum")), 0.03 * p);
+  const double work = -reading(after, "grain_work_fluid");
+  EXPECT_GT(work, 0.3 * kinetic(*started(c)));
+  EXPECT_LT(std::abs(reading(after, "grain_energy_residual")), 5e-3 * work);
+  auto parted = make_coupled(c, {});
+  parted->load(whole->save());
+  for (int k = 0; k < 5; ++k) whole->step(), parted->step();
+  EXPECT_EQ(bits(*whole), bits(*parted));
+}
+
 TEST(Clump, BedsSettleForCasesWithFluidAndInletsOfClumps) {
   for (const std::string clump : {"", "clump = \"rod\"\n"}) {
     const Config c = config_of(in_water(R"([[grain.fill]]

@@ -145,6 +145,16 @@ inline constexpr auto kNames<GrainInletShape> = std::to_array<Named<GrainInletSh
 
 // -- grains --------------------------------------------------------------------------------------
 
+/// clump.drag
+enum class ClumpDrag { clump, members };
+template <>
+inline constexpr auto kNames<ClumpDrag> = std::to_array<Named<ClumpDrag>>({
+    {ClumpDrag::clump, "clump",
+     "that of the sphere of its volume, at the mean slip of its spheres and at its centre of mass"},
+    {ClumpDrag::members, "members",
+     "each sphere has its own, by its diameter and its slip: for porous blocks wider than couple.hc"},
+});
+
 /// grain.fill.sizes.kind, grain_inlet.sizes.kind
 enum class SizeKind { one_size, uniform, log_normal, sieve };
 template <>

@@ -28,7 +28,7 @@ struct GrainStore : Store {
   Field<Real> rot_drag_coefficient{*this, "rot_drag_coefficient", "N m s", Lifetime::derived};  ///< torque per relative spin
   Field<Real3> impulse{*this, "impulse", "N s", Lifetime::derived};    ///< drag impulse of this fluid step
   Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};
-  Field<Real> clump_d{*this, "clump_diameter", "m", Lifetime::kept};  ///< of the sphere of its clump's volume, 0: none; left out where there are none
+  Field<Real> clump_d{*this, "clump_diameter", "m", Lifetime::kept};  ///< of the sphere of its clump's volume, whose drag it shares; 0: it has its own; left out where there are no clumps
   // for the exchange with fluid
   Field<PairPosition> xp{*this, "xp", "-", Lifetime::derived};     ///< packed
   // what fluid reads of their drag and of their reaction on it: DragWeights, DragLevers, Reactions

@@ -60,8 +60,11 @@ struct ClumpConfig {
   std::int64_t count = 0;                      ///< of them, at most
   double filled = 1;                           ///< of the volume of that shape (resolved)
   double density = 0;                          ///< kg/m3; 0: that of the material
+  Chosen<ClumpDrag> drag = ClumpDrag::clump;   ///< in fluid
   ClumpShape shape;                            ///< resolved
   std::vector<std::string> dropped{};          ///< materials of those that inlets drop (resolved)
+  /// Whether its spheres share one drag.
+  bool shares_drag() const { return drag == ClumpDrag::clump && shape.spheres.size() > 1; }
   bool operator==(const ClumpConfig&) const = default;
 };
 
