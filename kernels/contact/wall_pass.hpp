@@ -91,32 +91,38 @@ struct WallContacts {
           evaluate<Scope>(grain, contact, law(contact.body, i), memory, f);
         });
   }
-  /// The same for the lubrication films between a wet grain and all walls, in contact or not. Only with
-  /// lubrication.
+  /// f(contact) for the closest points of walls within `gap` (m) of grain i, in contact or not.
+  template <class Surfaces, class F>
+  BL_HD void each_near(Index i, Index n, Surfaces&& surface, double gap, F&& f) const {
+    SurfaceContacts<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
+    find<false>(i, n, surface, double(grains.radius[i]) + gap, near);
+    if (near.size() == 0) return;
+    near.resolve();
+    for (int k = 0; k < near.size(); ++k) f(near[k]);
+  }
+  /// f(body, contact) for the lubrication films between a wet grain and all walls. Only with lubrication.
   template <class Surfaces, class F>
   BL_HD void each_film(Index i, Index n, Surfaces&& surface, F&& f) const {
     if (!(wetness[i] > 0)) return;
+    each_near(i, n, surface, double(lubrication.range(grains.radius[i])),
+              [&](const SurfaceContact& near) { f(near.body, film(i, near)); });
+  }
+  /// The film between a wet grain and a wall.
+  BL_HD Contact film(Index i, const SurfaceContact& near) const {
     const Real R = grains.radius[i];
-    const Vec3d x = grains.x[i];
-    SurfaceContacts<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
-    find<false>(i, n, surface, double(R) + double(lubrication.range(R)), near);
-    if (near.size() == 0) return;
-    near.resolve();
-    for (int k = 0; k < near.size(); ++k) {
-      const ClosestPoint& closest = near[k].closest;
-      const BodyPose& pose = poses[near[k].body];
-      const Vec3d point = x - closest.distance * closest.normal;
-      const NearSurfaces at{.n = closest.normal,
-                            .gap = closest.distance - double(R),
-                            .R_star = R,
-                            .skew = 1,
-                            .arm_i = Real(closest.distance),
-                            .arm_j = 0};
-      ContactForce on_grain = lubrication(at, grains.v[i] - Real3(surface_velocity(pose, arm(pose, point))),
-                                          grains.omega[i], Real3(pose.omega));
-      on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];
-      f(near[k].body, Contact{on_grain, point});
-    }
+    const ClosestPoint& closest = near.closest;
+    const BodyPose& pose = poses[near.body];
+    const Vec3d point = grains.x[i] - closest.distance * closest.normal;
+    const NearSurfaces at{.n = closest.normal,
+                          .gap = closest.distance - double(R),
+                          .R_star = R,
+                          .skew = 1,
+                          .arm_i = Real(closest.distance),
+                          .arm_j = 0};
+    ContactForce on_grain = lubrication(at, grains.v[i] - Real3(surface_velocity(pose, arm(pose, point))),
+                                        grains.omega[i], Real3(pose.omega));
+    on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];
+    return {on_grain, point};
   }
   /// Number of contacts of grain i that are left out, since the deepest `capacity` alone count.
   BL_HD Index dropped(Index i) const {

@@ -2,22 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
+#include <utility>
 
 #include "src/solids/solid_solver.hpp"
 
 namespace BL_SOLVER {
 namespace {
 
+/// A contact, or what is near.
 struct ContactLine {
   Id id, other = 0;        ///< grains; with a wall the other is 0
   std::uint32_t body = 0;  ///< number of the wall body from 1; 0: another grain
   Vec3d from, to;          ///< centres, or the point on the wall, m
   Vec3d point, normal;     ///< m; out of the other
-  Vec3d force;             ///< on the grain, N
-  double overlap = 0;      ///< m
-  Vec3d spring;            ///< m
+  Vec3d force = {};        ///< on the grain, N
+  double overlap = 0;      ///< m; negative: apart
+  Vec3d spring = {};       ///< m
   double dissipated = 0;   ///< since it began, with spectra, J
+  Vec3d film = {};         ///< of lubrication on the grain, N
 
   double normal_force() const { return dot(force, normal); }
   Vec3d tangential_force() const { return force - normal_force() * normal; }
@@ -56,38 +60,51 @@ void SolidSolver::record_forces(const GrainStore& g, const BodyPose* poses, doub
   if (wall_list_.size() > 0)
     forces_->record(wall_contacts(g, poses, dt), wall_list_.rows(),
                     std::size_t(walls_.contacts()) * g.size());
+  if (!(parameters_.near_gap > 0)) return;
+  if (single_films()) forces_->record(g.owned(), films(g, nullptr), list_.slots());
+  forces_->record(wall_contacts(g, poses, dt), wall_list_.rows(), parameters_.near_gap,
+                  range_beyond(parameters_.wall_laws, 1));
 }
 
 HostStore SolidSolver::contact_lines(const GrainStore& g) const {
   std::vector<ContactLine> lines;
+  const bool wet = single_films();
   if (forces_ && forces_->recorded()) {
     const HostVerletList list(list_);
     const auto touching = histories_.touching();
     const auto history = histories_.to_host();
-    const auto force = forces_->of_pairs();
+    const double beyond = range_beyond(parameters_.pair_laws, 1);
+    const auto force = forces_->of_pairs(), film = wet ? forces_->films() : std::vector<Real3>();
     const auto open = spectra_ ? spectra_->of_pairs().to_host() : std::vector<OpenContact>(list_.slots());
     const std::vector<Id> id = g.id.values();
     const std::vector<Vec3d> x = g.x.values();
     const std::vector<Real> radius = g.radius.values();
     for (Index i = 0; i < list_.rows(); ++i)
       list.view().each(i, [&](std::uint64_t slot, Index j) {
-        if (!touching[slot] || id[i] > id[j]) return;
+        if ((!touching[slot] && !(parameters_.near_gap > 0)) || id[i] > id[j]) return;
         const Vec3d r = frame_.separation(x[i], x[j]), n = r * (1 / norm(r));
-        const double overlap = history[slot].overlap;
+        const double R_i = radius[i], R_j = radius[j];
+        const double overlap = touching[slot] ? history[slot].overlap : R_i + R_j - norm(r);
+        if (!touching[slot] && -overlap > std::max(parameters_.near_gap, beyond * R_i * R_j / (R_i + R_j)))
+          return;
         lines.push_back({.id = id[i],
                          .other = id[j],
                          .from = x[i],
                          .to = x[i] - r,
-                         .point = x[i] - (double(radius[i]) - 0.5 * overlap) * n,
+                         .point = x[i] - (R_i - 0.5 * overlap) * n,
                          .normal = n,
-                         .force = Vec3d(force[slot]),
+                         .force = touching[slot] ? Vec3d(force[slot]) : Vec3d(),
                          .overlap = overlap,
-                         .spring = history[slot].xi,
-                         .dissipated = all_of(open[slot].loss)});
+                         .spring = touching[slot] ? history[slot].xi : Vec3d(),
+                         .dissipated = touching[slot] ? all_of(open[slot].loss) : 0,
+                         .film = wet ? Vec3d(film[slot]) : Vec3d()});
       });
     const auto count = wall_contacts_ ? wall_contacts_->values() : std::vector<Index>(g.size());
     const auto at_walls = forces_->at_walls();
     const auto lost = spectra_ ? spectra_->at_walls() : std::vector<WallLosses>{};
+    std::map<std::pair<Index, std::uint64_t>, NearWall> near_walls;  // by grain and key
+    if (parameters_.near_gap > 0)
+      for (const NearWall& wall : forces_->near_walls()) near_walls[{wall.grain, wall.key}] = wall;
     for (int k = 0; k < walls_.contacts(); ++k) {
       const std::vector<WallMemory> memory = wall_memory_[k]->values();
       for (Index i = 0; i < g.owned().size(); ++i) {
@@ -104,7 +121,24 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
                          .overlap = overlap,
                          .spring = memory[i].history.xi,
                          .dissipated = lost.empty() ? 0 : all_of(lost[i].of[k])});
+        const auto film_there = near_walls.find({i, memory[i].key});
+        if (film_there == near_walls.end()) continue;
+        lines.back().film = Vec3d(film_there->second.film);
+        near_walls.erase(film_there);
       }
+    }
+    for (const auto& [at, wall] : near_walls) {
+      const Index i = wall.grain;
+      if (!(wall.gap >= 0)) continue;
+      const Vec3d point = x[i] - (double(radius[i]) + wall.gap) * wall.normal;
+      lines.push_back({.id = id[i],
+                       .body = walls_.surfaces()[Index(wall.key >> 32)].body + 1,
+                       .from = x[i],
+                       .to = point,
+                       .point = point,
+                       .normal = wall.normal,
+                       .overlap = -wall.gap,
+                       .film = Vec3d(wall.film)});
     }
     std::stable_sort(lines.begin(), lines.end(),
                      [](const ContactLine& a, const ContactLine& b) { return a.key() < b.key(); });
@@ -122,6 +156,8 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
       column<Real3>("tangential_force", "N", lines, [](Line c) { return c.tangential_force(); }));
   out.arrays.push_back(column<Real>("overlap", "m", lines, [](Line c) { return c.overlap; }));
   out.arrays.push_back(column<Real3>("spring", "m", lines, [](Line c) { return c.spring; }));
+  if (wet)
+    out.arrays.push_back(column<Real3>("lubrication_force", "N", lines, [](Line c) { return c.film; }));
   if (spectra_)
     out.arrays.push_back(column<Real>("dissipated", "J", lines, [](Line c) { return c.dissipated; }));
   if (Context::current().several())

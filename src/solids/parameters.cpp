@@ -1,5 +1,6 @@
 #include "src/solids/parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bedload/case/config.hpp"
@@ -65,7 +66,10 @@ SolidParameters solid_parameters(const Config& config) {
       .spectra = {config.out.spectra_from, config.out.spectra_from_force,
                   config.out.spectra ? int(config.out.spectra_bins) : 0, config.out.spectra_sizes},
       .shear_rate = config.domain.shear_rate,
-      .single_forces = config.out.contacts != ContactFrames::none};
+      .single_forces = config.out.contacts != ContactFrames::none,
+      .near_gap = config.out.contacts == ContactFrames::all
+                      ? std::min(0.1, config.skin_grain / 3) * g.smallest()
+                      : 0};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
   for (const WallBody& body : config.wall.bodies)

@@ -63,6 +63,7 @@ struct SolidParameters {
   std::vector<WearGrid> wear = {};   ///< [bodies]; empty: of none
   double shear_rate = 0;             ///< of a sheared box, 1/s; 0: none
   bool single_forces = false;        ///< of contacts are recorded at the end of a step
+  double near_gap = 0;               ///< up to which grains and walls are near for that, m; 0: if they touch
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls
 };

@@ -141,13 +141,13 @@ class SolidSolver {
     const std::size_t orders = Context::current().several() ? 3 : 1;
     const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : orders * sizeof(Index);
     const double more = cube(range() / (parameters_.d_max + skin()));  // entries, by what does not touch
-    return {.grains = of_grains_.entry_bytes() + clumps_.scratch_bytes() +
-                      (books_ ? EnergyBooks::kScratch : 0) +
-                      (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
-            .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
-                                                     (books_ ? sizeof(ContactAction) : 0) +
-                                                     (spectra_ ? 2 * sizeof(OpenContact) : 0) +
-                                                     (forces_ ? sizeof(Real3) : 0)))};
+    return {
+        .grains = of_grains_.entry_bytes() + clumps_.scratch_bytes() + (books_ ? EnergyBooks::kScratch : 0) +
+                  (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
+        .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
+                                                 (books_ ? sizeof(ContactAction) : 0) +
+                                                 (spectra_ ? 2 * sizeof(OpenContact) : 0) +
+                                                 (forces_ ? (single_films() ? 2 : 1) * sizeof(Real3) : 0)))};
   }
 
   /// Histories of wall contacts.
@@ -233,6 +233,8 @@ class SolidSolver {
     for (const ContactLaw& law : laws) most = std::max(most, double(law.range()) * R_star);
     return most;
   }
+  /// Forces of single films are recorded, too.
+  bool single_films() const { return parameters_.near_gap > 0 && lubricates(); }
   LubricationPass films(const GrainStore& grains, ContactSum* sums) const;
   /// Into by_walls_: the wall contacts of the grains, and what they do to free bodies.
   template <class Scope>

@@ -96,6 +96,53 @@ TEST(ContactFrames, ForcesOfLinesAddUpToThatOnEachGrain) {
   EXPECT_NEAR(lost / all, 1, 1e-6);
 }
 
+/// A column above a wall: gaps of 0.05, then -0.01, 0.08, 0.2, 0.4 diameters. Lubrication reaches 0.25, and
+/// 0.5 to walls.
+TEST(ContactFrames, OfAllAreOfWhatIsNear) {
+  for (const bool wet : {false, true}) {
+    GrainBench b;
+    b.config.out.contacts = "all";
+    b.plane({0, 0, 0}, {0, 0, 1});
+    if (wet) b.config.fluid.mu = 0.05, b.config.lubrication.forces = LubricationForces::normal;
+    const double d = 2 * b.R();
+    double z = 0.55;
+    for (const double gap : {-0.01, 0.08, 0.2, 0.4, 0.0}) {
+      b.add({0, 0, z * d}, {0, 0, -0.1 * z * z});
+      z += 1 + gap;
+    }
+    b.build();
+    b.grains->wetness.assign(std::vector<Real>(b.x.size(), Real(1)));
+    b.refresh();
+    b.set_poses(1, 0);
+    b.solver->evaluate(*b.grains, b.poses());
+    b.run(1e-9, 1);
+    const HostStore lines = b.solver->contact_lines(*b.grains);
+    const std::vector<double> gaps =
+        wet ? std::vector{-0.01, 0.05, 0.08, 0.2} : std::vector{-0.01, 0.05, 0.08};
+    ASSERT_EQ(lines.count, gaps.size());
+    ASSERT_EQ(lines.find("lubrication_force") != nullptr, wet);
+    std::vector<Vec3d> sum(b.x.size());
+    std::vector<double> found;
+    for (std::size_t n = 0; n < lines.count; ++n) {
+      const double overlap = entry(lines, "overlap", n), normal_force = entry(lines, "normal_force", n);
+      found.push_back(-overlap / d);
+      EXPECT_EQ(normal_force > 0, overlap > 0);
+      EXPECT_NEAR(norm(vector_at(lines, "ends", n) - vector_at(lines, "ends", n, 3)) + overlap,
+                  entry(lines, "body", n) == 0 ? d : d / 2, 1e-6 * d);
+      Vec3d force = normal_force * vector_at(lines, "normal", n);
+      if (wet) force += vector_at(lines, "lubrication_force", n);
+      sum[std::size_t(entry(lines, "id", n))] += force;
+      if (entry(lines, "body", n) == 0) sum[std::size_t(entry(lines, "other", n))] -= force;
+    }
+    std::sort(found.begin(), found.end());
+    for (std::size_t n = 0; n < gaps.size(); ++n) EXPECT_NEAR(found[n], gaps[n], 1e-4);
+    for (Id i = 0; i < b.x.size(); ++i) {
+      EXPECT_LT(norm(sum[i] - b.force(i)), 1e-5 * norm(b.force(0))) << i;
+    }
+    EXPECT_EQ(norm(b.force(3)) > 0, wet);
+  }
+}
+
 TEST(ContactFrames, AreOnlyThereIfAskedFor) {
   GrainBench b;
   b.add({}), b.add({1.99 * b.R(), 0, 0});

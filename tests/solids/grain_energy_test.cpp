@@ -113,7 +113,9 @@ TEST(GrainEnergy, PeaksOfImpactsAreThoseOfASpring) {
       const SpectrumBin& bin = peaks[first + std::size_t(k)];
       const bool here = k == int(layout.per_decade * std::log10(exact / from));
       EXPECT_EQ(bin.count, here ? 1u : 0u) << of << ' ' << kind << ' ' << k;
-      if (here) EXPECT_NEAR(bin.sum.value() * unit / exact, 1, 1e-3) << of << ' ' << kind;
+      if (here) {
+        EXPECT_NEAR(bin.sum.value() * unit / exact, 1, 1e-3) << of << ' ' << kind;
+      }
     }
   };
   for (const bool wall : {false, true}) {

@@ -212,11 +212,12 @@ inline constexpr auto kNames<ForceSample> = std::to_array<Named<ForceSample>>({
 });
 
 /// out.contacts
-enum class ContactFrames { none, touching };
+enum class ContactFrames { none, touching, all };
 template <>
 inline constexpr auto kNames<ContactFrames> = std::to_array<Named<ContactFrames>>({
     {ContactFrames::none, "none", "no frames of contacts"},
     {ContactFrames::touching, "touching", "contacts of grains with each other and with walls, as lines"},
+    {ContactFrames::all, "all", "these, and grains and walls that are near each other without touching"},
 });
 
 /// out.bodies
