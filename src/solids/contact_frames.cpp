@@ -85,11 +85,11 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
                          .spring = history[slot].xi,
                          .dissipated = all_of(loss[slot])});
       });
-    const auto count = wall_contacts_ ? wall_contacts_->values() : std::vector<Index>(g.size());
+    const auto count = wall_list_.remembered(g.owned().size());
     const auto at_walls = forces_->at_walls();
     const auto lost = spectra_ ? spectra_->at_walls() : std::vector<WallLosses>{};
     for (int k = 0; k < walls_.contacts(); ++k) {
-      const std::vector<WallMemory> memory = wall_memory_[k]->values();
+      const std::vector<WallMemory> memory = wall_list_.memory(k, g.owned().size());
       for (Index i = 0; i < g.owned().size(); ++i) {
         if (Index(k) >= count[i]) continue;
         const double overlap = memory[i].history.overlap;
