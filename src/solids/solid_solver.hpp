@@ -143,11 +143,12 @@ class SolidSolver {
     const double more = cube(range() / (parameters_.d_max + skin()));  // entries, by what does not touch
     return {.grains = of_grains_.entry_bytes() + clumps_.scratch_bytes() +
                       (books_ ? EnergyBooks::kScratch : 0) +
-                      (forces_ ? sizeof(Real3) * walls_.contacts() : 0) + wall_list_.row_bytes(),
+                      (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
             .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
                                                      (books_ ? sizeof(ContactAction) : 0) +
                                                      (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
-                                                     (forces_ ? sizeof(Real3) : 0)))};
+                                                     (forces_ ? sizeof(Real3) : 0))),
+            .near_walls = wall_list_.row_bytes()};
   }
 
   /// What advance() keeps of wall contacts, besides what grains remember of them; of those near walls their

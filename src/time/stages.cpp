@@ -189,8 +189,8 @@ void Stepper::move_solids(Step& now) {
     const Fields own = std::as_const(*solid_solver_).fields_of_contacts() +
                        Fields{&g.force, &g.torque, &g.drag_force, &g.impulse, &g.spin_impulse};
     a.writes += own + rows + Fields{&g.x, &g.v, &g.omega} + moving_of_clumps();
-    a.near += lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + rows +
-                      all_of(clump_stores()));
+    a.near +=
+        lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + rows + all_of(clump_stores()));
     a.reads += lasting(own) + Fields{&g.fluid_velocity,   &g.fluid_angular_velocity,
                                      &g.drag_coefficient, &g.rot_drag_coefficient,
                                      &g.fluid_force,      &g.wetness};

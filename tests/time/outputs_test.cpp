@@ -192,6 +192,7 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
     EXPECT_EQ(later.walls, bytes.walls);
     EXPECT_EQ(later.grains, bytes.grains);
     EXPECT_EQ(later.near_grains, bytes.near_grains);
+    EXPECT_EQ(later.near_walls, bytes.near_walls);
     return bytes;
   };
   const ParticleBytes water = known(kTank + kFluid, {}), bed = known(kBed, {}),
@@ -199,6 +200,7 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
                       collisions = known(kTank + kFluid, {"visc.collision=true"});
   EXPECT_EQ(water.grains, 0u);
   EXPECT_EQ(water.near_grains, 0u);
+  EXPECT_EQ(water.near_walls, 0u);
   EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real4));
   EXPECT_EQ(bed.near_grains, sizeof(Index) + 1 + 2 * sizeof(Real4));
   EXPECT_EQ(spectra.near_grains - bed.near_grains, sizeof(ContactAction) + 2 * sizeof(ContactLoss));
@@ -232,8 +234,14 @@ faces = ["x-", "x+", "y-", "y+", "z-"]
     return double(bytes_held_by_thread() - before);
   };
   const double more = held(bed + tank) - held(bed);
-  EXPECT_GT(more, 144 * 5 * sizeof(WallMemory));
+  EXPECT_GT(more, 144.0 * 5 * sizeof(WallMemory));
   EXPECT_LT(more, 0.2 * 5 * sizeof(WallMemory) * count);
+  const auto known = [](const std::string& text) {
+    const Config c = test::StageCase{"bed", text, {}}.config();
+    return CoupledSimulation(c, {}).scratch_bytes();
+  };
+  EXPECT_EQ(known(bed + tank).grains, known(bed).grains);
+  EXPECT_GT(known(bed + tank).near_walls, 5 * sizeof(WallMemory));
 }
 
 }  // namespace
