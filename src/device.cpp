@@ -17,6 +17,7 @@
 #include "bedload/case/config.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/sampling.hpp"
 #include "bedload/parallel/link.hpp"
 #include "bedload/simulation.hpp"
 #include "src/device.hpp"
@@ -377,19 +378,48 @@ namespace {
 /// Number of lattice points within `reach` spacings.
 double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 4.19 * std::pow(reach, 3); }
 
-/// Of the grains of all fills, m3.
+/// Spheres of a fill, by number and volume (m3).
+struct Filled {
+  double number = 0, volume = 0;
+};
+Filled spheres_of(const GrainFill& fill, const GrainConfig& grain) {
+  if (fill.sizes.empty()) return {};
+  const Vec3d side = fill.max - fill.min;
+  const double each = mean_volume(fill.sizes, 1000),
+               all = fill.packing_fraction > 0 ? fill.packing_fraction * side.x * side.y * side.z
+                     : fill.mass > 0           ? fill.mass / grain.density(fill)
+                                               : double(fill.count) * each;
+  const ClumpConfig* const clump = grain.clump_of(fill);
+  return {all / each * (clump ? double(clump->shape.spheres.size()) : 1.0), all};
+}
+
+/// Of the grains of all fills, m3; those of a clump are one.
 double mean_grain_volume(const GrainConfig& grain) {
   double volume = 0, number = 0;
   for (const GrainFill& fill : grain.fills) {
     if (fill.sizes.empty()) continue;
-    const Vec3d side = fill.max - fill.min;
-    const double each = mean_volume(fill.sizes, 1000),
-                 all = fill.packing_fraction > 0 ? fill.packing_fraction * side.x * side.y * side.z
-                       : fill.mass > 0           ? fill.mass / grain.density(fill)
-                                                 : double(fill.count) * each;
-    volume += all, number += all / each;
+    const double all = spheres_of(fill, grain).volume;
+    volume += all, number += all / mean_volume(fill.sizes, 1000);
   }
   return number > 0 ? volume / number : 0;
+}
+
+/// The fraction of the grains that a layer along all walls can hold, 1.5 diameters thick; 1 where the case
+/// does not say how many there are.
+double fraction_near_walls(const Config& config) {
+  Filled all;
+  for (const GrainFill& fill : config.grain.fills) {
+    Filled of = spheres_of(fill, config.grain);
+    if (!fill.file.empty() || (fill.solid.shape && fill.packing_fraction > 0)) return 1;
+    if (!(of.number > 0)) return 1;
+    all.number += of.number, all.volume += of.volume;
+  }
+  if (all.number == 0) return 1;
+  const double d = std::cbrt(6 / M_PI * all.volume / all.number);
+  double near = 0;
+  for (const WallBody& body : config.wall.bodies)
+    if (body.stops_grains()) near += expected_places(body, d, 1.5 * d, config.domain);
+  return std::min(1.0, near / all.number);
 }
 
 }  // namespace
@@ -405,6 +435,7 @@ MemoryEstimate estimate_memory(const Config& config, const Device& device) {
                      .walls = double(each.walls),
                      .grains = double(each.grains),
                      .ranks = device.ranks};
+  if (each.near_walls > 0) out.grains += fraction_near_walls(config) * double(each.near_walls);
   if (config.fluid.lattice()) return out;
 
   const double reach = config.fluid.kappa() * config.fluid.h() + config.skin_fluid * config.fluid.dx;

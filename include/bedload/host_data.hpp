@@ -95,9 +95,11 @@ struct FieldView {
 struct ParticleBytes {
   std::size_t fluid = 0, walls = 0, grains = 0;
   std::size_t near_grains = 0;  ///< of a pair in the list of near grains, as each of the two has it
+  std::size_t near_walls = 0;   ///< of a grain near walls, more than of others
 
   ParticleBytes& operator+=(const ParticleBytes& o) {
     fluid += o.fluid, walls += o.walls, grains += o.grains, near_grains += o.near_grains;
+    near_walls += o.near_walls;
     return *this;
   }
 };

@@ -170,7 +170,7 @@ struct PairFlowPass {
 struct WallFlowPass {
   WallContacts contacts;
   WallRows rows;
-  ContactAction* actions;  ///< [capacity][grains], as memories
+  ContactAction* actions;  ///< [capacity][grains]
   EnergyFlow* flows;       ///< [grains]
   OpenLosses losses = {};
   WallWear wear = {};

@@ -34,12 +34,36 @@ struct FileType<WallMemory> {
 
 /// The memories of one grain, [count] of them in ascending order of key.
 struct WallMemories {
-  WallMemory* const* slots;  ///< [kMostWallContacts or fewer][grains]
+  WallMemory* const* slots;  ///< [kMostWallContacts or fewer][rows]
   Index* counts;             ///< [grains]; null where there are no walls
   Index grain;
+  Index row = grain;  ///< of this grain among those that may remember anything
 
   BL_HD Index count() const { return counts ? counts[grain] : 0; }
-  BL_HD WallMemory& operator[](Index k) const { return slots[k][grain]; }
+  BL_HD WallMemory& operator[](Index k) const { return slots[k][row]; }
+};
+
+/// Puts what grains remember of walls, their k-th memories, into other rows.
+struct CarryWallMemoryPass {
+  Span<const Index> grain;   ///< of the new rows
+  const Index* count;        ///< [grains]
+  Span<const Index> row_of;  ///< of each grain, until now
+  Index k;
+  const WallMemory* from;
+  WallMemory* to;
+  BL_HD void operator()(Index row) const {
+    const Index i = grain[row];
+    to[row] = count[i] > k ? from[row_of[i]] : WallMemory{};
+  }
+};
+/// Gives rows to grains that have come from other ranks, from `first` on, in the order in which they came.
+struct ArrivingRowsPass {
+  Span<const Index> kept;  ///< of move()
+  Index before, first;
+  Span<Index> row_of;
+  BL_HD void operator()(Index i) const {
+    if (kept[i] >= before) row_of[i] = first + (kept[i] - before);
+  }
 };
 
 /// A closest point of surface `surface`, and the memory that it continues.

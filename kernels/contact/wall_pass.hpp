@@ -31,8 +31,9 @@ struct WallContacts {
   GrainView grains;
   Real dt;  ///< s
   SurfaceSet walls;
-  WallMemory* const* memory;  ///< [capacity][grains]
-  Index* count;               ///< [grains], of them in use
+  WallMemory* const* memory;  ///< [capacity][rows]
+  const Index* row;           ///< [grains]
+  Index* count;               ///< [grains], of memories in use
   int capacity;               ///< contacts of a grain with walls at once
   const ContactLaw* laws;     ///< [bodies][materials]
   std::uint32_t materials;
@@ -66,7 +67,7 @@ struct WallContacts {
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
     return grains.frame.nearest_image(point - pose.origin());
   }
-  BL_HD WallMemories memories(Index i) const { return {memory, count, i}; }
+  BL_HD WallMemories memories(Index i) const { return {memory, count, i, row ? row[i] : i}; }
   BL_HD const ContactLaw& law(std::uint32_t body, Index i) const {
     return laws[body * materials + (grains.mass_per_r3.material ? grains.mass_per_r3.material[i] : 0)];
   }

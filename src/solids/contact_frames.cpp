@@ -99,14 +99,14 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
                          .dissipated = touching[slot] ? all_of(open[slot].loss) : 0,
                          .film = wet ? Vec3d(film[slot]) : Vec3d()});
       });
-    const auto count = wall_contacts_ ? wall_contacts_->values() : std::vector<Index>(g.size());
+    const auto count = wall_list_.remembered(g.owned().size());
     const auto at_walls = forces_->at_walls();
     const auto lost = spectra_ ? spectra_->at_walls() : std::vector<WallLosses>{};
     std::map<std::pair<Index, std::uint64_t>, NearWall> near_walls;  // by grain and key
     if (parameters_.near_gap > 0)
       for (const NearWall& wall : forces_->near_walls()) near_walls[{wall.grain, wall.key}] = wall;
     for (int k = 0; k < walls_.contacts(); ++k) {
-      const std::vector<WallMemory> memory = wall_memory_[k]->values();
+      const std::vector<WallMemory> memory = wall_list_.memory(k, g.owned().size());
       for (Index i = 0; i < g.owned().size(); ++i) {
         if (Index(k) >= count[i]) continue;
         const double overlap = memory[i].history.overlap;

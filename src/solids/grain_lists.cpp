@@ -275,7 +275,10 @@ void SolidSolver::migrate(GrainStore& grains, CellGrid& grid, const Field<Vec3d>
   if (!migrants.any) return;
   arriving_->send(migrants, source_index, list_.view(), listed, histories_.view(), listed_id_,
                   spectra_ ? spectra_->of_pairs().data() : nullptr);
+  const Index before = grains.owned().size();
+  wall_list_.send(migrants);
   move(grains, migrants, kept, &x == &grains.x_list);
+  wall_list_.settle(before, kept);
 }
 
 void SolidSolver::make_ghosts_of(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x) {

@@ -52,7 +52,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       bodies_(bodies),
       clumps_(parameters, frame, grains),
       levels_(frame),
-      wall_list_(frame, walls, skin(), range_beyond(parameters.wall_laws, parameters.d_max / 2)),
+      wall_list_(frame, walls, grains, skin(), range_beyond(parameters.wall_laws, parameters.d_max / 2)),
       load_bounds_(bounds_of_loads(parameters, frame)),
       arriving_(std::make_unique<ArrivingContacts>(parameters.spectra.per_decade > 0)) {
   frame_.shear = {parameters.shear_rate, 0, frame.origin.z, frame.length.z};
@@ -67,25 +67,15 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
     spectra_ = std::make_unique<SpectraBooks>(parameters, grains, walls.contacts() > 0);
   if (!parameters.wear.empty()) wear_ = std::make_unique<WearBooks>(parameters);
   if (parameters.single_forces) forces_ = std::make_unique<SingleForces>();
-  if (walls.contacts() == 0) return;
-  wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
-  wall_contacts_->resize(grains.size());
-  for (int k = 0; k < walls.contacts(); ++k) {
-    const std::string name = "wall_memory_" + std::to_string(k);
-    wall_memory_.push_back(
-        std::make_unique<Field<WallMemory>>(grains, name.c_str(), WallMemory::units(), Lifetime::kept));
-    wall_memory_.back()->resize(grains.size());
-  }
 }
 
 SolidSolver::~SolidSolver() = default;
 
 std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
-  std::vector<const FieldBase*> out;
-  if (wall_contacts_) out.push_back(wall_contacts_.get());
-  for (const auto& memory : wall_memory_) out.push_back(memory.get());
+  std::vector<const FieldBase*> out = wall_list_.counts();
   if (books_ && books_->film_field()) out.push_back(books_->film_field());
-  if (spectra_ && wall_contacts_) out.insert(out.end(), {spectra_->wall_peaks(), spectra_->wall_losses()});
+  if (spectra_ && spectra_->wall_losses())
+    out.insert(out.end(), {spectra_->wall_peaks(), spectra_->wall_losses()});
   return out;
 }
 
@@ -194,7 +184,7 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   if (spectra_) spectra_->forget();
   if (wear_) wear_->forget();
   FreeBodies* const free = moving();
-  wall_list_.cover(g, poses, wall_counts(), 0);
+  wall_list_.cover(g, poses, 0);
   record_forces(g, poses.data, 0);
   const ContactPass contacts =
       contacts_at(g, poses.data, 0, free ? free->record(g.size(), load_bounds_) : ContactLoads{});
@@ -215,7 +205,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     return contacts_at(g, row, tau, loads);
   };
   substep_loads_.begin(substeps);
-  wall_list_.cover(g, poses, wall_counts(), wall_travel);
+  wall_list_.cover(g, poses, wall_travel);
   if (free) free->first_kick();
   if (held || parameters_.fixed) {
     for_each(g.owned(), HeldPass{.duration = dt,
@@ -343,7 +333,7 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
 }
 
 double SolidSolver::dropped_contacts(const GrainStore& g, Span<const BodyPose> poses) const {
-  if (!wall_contacts_ || !parameters_.contacts) return 0;
+  if (walls_.contacts() == 0 || !parameters_.contacts) return 0;
   return sum_over<1>(g.owned(), DroppedContacts{wall_contacts(g, poses.data, 0)}).v[0];
 }
 

@@ -147,11 +147,17 @@ class SolidSolver {
         .near_grains = std::size_t(more * double(sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
                                                  (books_ ? sizeof(ContactAction) : 0) +
                                                  (spectra_ ? 2 * sizeof(OpenContact) : 0) +
-                                                 (forces_ ? (single_films() ? 2 : 1) * sizeof(Real3) : 0)))};
+                                                 (forces_ ? (single_films() ? 2 : 1) * sizeof(Real3) : 0))),
+        .near_walls = wall_list_.row_bytes()};
   }
 
-  /// Histories of wall contacts.
+  /// What advance() keeps of wall contacts, besides what grains remember of them; of those near walls their
+  /// places there, where others write too.
   std::vector<const FieldBase*> fields_of_contacts() const;
+  std::vector<const FieldBase*> places_at_walls() const { return wall_list_.places(); }
+  /// Adds what grains remember of wall contacts to what was saved of them, and takes it from there.
+  void save_walls(HostStore& saved) const { wall_list_.save(saved); }
+  void load_walls(const HostStore& saved, const GrainStore& grains) { wall_list_.load(saved, grains); }
 
   Clumps& clumps() { return clumps_; }
   const Clumps& clumps() const { return clumps_; }
@@ -222,7 +228,6 @@ class SolidSolver {
   static void share_motion(GrainStore& grains);
   /// The free bodies, if they move in the substeps; else null.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
-  WallMemory* const* wall_memories() const;
   /// With the masses that contacts damp with.
   GrainView view(const GrainStore& grains) const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
@@ -299,7 +304,6 @@ class SolidSolver {
   void record_loads(int s, const FreeBodies& bodies);
   /// Over the threads of the passes that evaluate pairs.
   Range threads() const { return {0, list_.rows() << list_.view().bits}; }
-  const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
 
   SolidParameters parameters_;
   GrainFrame frame_;
@@ -312,10 +316,6 @@ class SolidSolver {
   FreeBodies* bodies_;
   const Field<Real3>* fluid_torque_ = nullptr;
   Clumps clumps_;
-  std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
-  std::unique_ptr<Field<Index>> wall_contacts_;                  ///< number in use
-  mutable std::vector<WallMemory*> memory_pointers_;  ///< to wall_memory_, whose buffers change in a sort
-  mutable Buffer<WallMemory*> device_memory_pointers_;
 
   // compiled for the contact laws and surface kinds of the case
   void (SolidSolver::*count_pair_flows_)(const GrainStore&, double, const OpenLosses&) = nullptr;

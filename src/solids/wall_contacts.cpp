@@ -6,22 +6,13 @@
 
 namespace BL_SOLVER {
 
-WallMemory* const* SolidSolver::wall_memories() const {
-  std::vector<WallMemory*> now;
-  for (const auto& field : wall_memory_) now.push_back(field->buffer().data());
-  if (now != memory_pointers_) {
-    memory_pointers_ = now;
-    device_memory_pointers_.assign(memory_pointers_);
-  }
-  return device_memory_pointers_.data();
-}
-
 WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* poses, double dt) const {
   return {.grains = view(g),
           .dt = Real(dt),
           .walls = walls_.view(),
-          .memory = wall_memories(),
-          .count = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
+          .memory = wall_list_.memories(),
+          .row = wall_list_.row_of().data,
+          .count = wall_list_.remembered(),
           .capacity = walls_.contacts(),
           .laws = wall_laws_.data(),
           .materials = matter_.materials(),

@@ -185,10 +185,12 @@ void Stepper::move_solids(Step& now) {
   begin(now, "move_solids", Part::grains, [&] {
     Access a{.near = lasting(all_of(bodies_.stores())), .reads = {}, .writes = all_of(bodies_.stores())};
     if (!has_grains()) return a;
+    const Fields rows = std::as_const(*solid_solver_).places_at_walls();
     const Fields own = std::as_const(*solid_solver_).fields_of_contacts() +
                        Fields{&g.force, &g.torque, &g.drag_force, &g.impulse, &g.spin_impulse};
-    a.writes += own + Fields{&g.x, &g.v, &g.omega} + moving_of_clumps();
-    a.near += lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + all_of(clump_stores()));
+    a.writes += own + rows + Fields{&g.x, &g.v, &g.omega} + moving_of_clumps();
+    a.near +=
+        lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + rows + all_of(clump_stores()));
     a.reads += lasting(own) + Fields{&g.fluid_velocity,   &g.fluid_angular_velocity,
                                      &g.drag_coefficient, &g.rot_drag_coefficient,
                                      &g.fluid_force,      &g.wetness};

@@ -180,6 +180,7 @@ void Stepper::settle(double longest, const std::function<void(double)>& progress
 void Stepper::save_grains(SavedState& out) const {
   if (!has_grains()) return;
   out.stores.push_back(grains_.save());
+  solid_solver_->save_walls(out.stores.back());
   if (Context::current().several()) {
     const HostArray blocks = blocks_of_grains();
     out.stores.push_back(solid_solver_->save_contacts(grains_, &blocks));
@@ -192,6 +193,7 @@ void Stepper::save_grains(SavedState& out) const {
 void Stepper::load_grains(const SavedState& saved) {
   if (!has_grains()) return;
   take({.grains = saved_particles(store_of(saved, "grains"), grains_)}, true);
+  solid_solver_->load_walls(store_of(saved, "grains"), grains_);
   load_clumps(saved);
   solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
 }
@@ -238,6 +240,7 @@ void Stepper::load(const SavedState& saved) {
   if (has_fluid()) fluid_solver_->load(scalar);
   if (coupled()) coupling_->load(scalar);
   take(state_.particles_of(config_, saved), true);
+  if (has_grains()) solid_solver_->load_walls(store_of(saved, "grains"), grains_);
   if (has_fluid()) {
     moment_ = moment(clock_.time, clock_.step);
     corrected_ = 0;

@@ -501,6 +501,7 @@ TEST(ParameterTable, TakesChoicesFromTheirRegistry) {
   expect_choices<GrainInletShape>("grain_inlet.shape");
   expect_choices<SizeKind>("grain.fill.sizes.kind");
   expect_choices<SizeKind>("grain_inlet.sizes.kind");
+  expect_choices<ClumpDrag>("clump.drag");
   expect_choices<ProbeType>("probe.type");
   expect_choices<Phase>("probe.phase");
   expect_choices<ForceSample>("probe.sample");

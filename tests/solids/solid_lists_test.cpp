@@ -213,12 +213,15 @@ TEST(SolidLists, ACheckpointContinuesBitForBit) {
   Heap a(200);
   a.start();
   a.run(2e-6, 310);  // well after the last rebuild and before the next
-  const HostStore grains = a.grains->save(), contacts = a.solver->save_contacts(*a.grains);
+  const HostStore contacts = a.solver->save_contacts(*a.grains);
+  HostStore grains = a.grains->save();
+  a.solver->save_walls(grains);
   ASSERT_GT(contacts.count, 10u);
 
   Heap b(200);
   b.build();
   b.grains->load(grains);
+  b.solver->load_walls(grains, *b.grains);
   b.solver->load_contacts(*b.grains, *b.grid, contacts);
   b.time = a.time;
   EXPECT_EQ(bits(*a.grains), bits(*b.grains));
@@ -312,10 +315,13 @@ TEST(SolidLists, ACheckpointOfUnlikeGrainsContinuesBitForBit) {
   Coated a, b;
   a.start();
   a.run(5e-8, 310);
-  const HostStore grains = a.grains->save(), contacts = a.solver->save_contacts(*a.grains);
+  const HostStore contacts = a.solver->save_contacts(*a.grains);
+  HostStore grains = a.grains->save();
+  a.solver->save_walls(grains);
   ASSERT_GT(contacts.count, 100u);
   b.build();
   b.grains->load(grains);
+  b.solver->load_walls(grains, *b.grains);
   b.solver->load_contacts(*b.grains, *b.grid, contacts);
   b.time = a.time;
   a.run(5e-8, 300);

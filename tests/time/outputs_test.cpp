@@ -192,6 +192,7 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
     EXPECT_EQ(later.walls, bytes.walls);
     EXPECT_EQ(later.grains, bytes.grains);
     EXPECT_EQ(later.near_grains, bytes.near_grains);
+    EXPECT_EQ(later.near_walls, bytes.near_walls);
     return bytes;
   };
   const ParticleBytes water = known(kTank + kFluid, {}), bed = known(kBed, {}),
@@ -199,9 +200,48 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
                       collisions = known(kTank + kFluid, {"visc.collision=true"});
   EXPECT_EQ(water.grains, 0u);
   EXPECT_EQ(water.near_grains, 0u);
+  EXPECT_EQ(water.near_walls, 0u);
   EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real4));
   EXPECT_EQ(bed.near_grains, sizeof(Index) + 1 + 2 * sizeof(Real4));
   EXPECT_EQ(spectra.near_grains - bed.near_grains, sizeof(ContactAction) + 2 * sizeof(OpenContact));
+}
+
+/// A block of grains on the floor of a wide tank: those of its lowest layer alone keep memories of walls.
+TEST(ScratchBytes, OfWallContactsAreThoseOfGrainsNearWalls) {
+  std::string places;
+  int count = 0;
+  for (int k = 0; k < 20; ++k)
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 12; ++i) {
+        const Vec3d x{0.004 + 0.00105 * i, 0.004 + 0.00105 * j, 0.0006 + 0.00105 * k};
+        places += "[" + std::to_string(x.x) + ", " + std::to_string(x.y) + ", " + std::to_string(x.z) + "],";
+        ++count;
+      }
+  const std::string bed = "[grain]\nd = 0.001\nE = 1e6\n[[grain.fill]]\npositions = [" + places +
+                          "]\n[time]\nend = 1\n[out]\nevery = 1\n[domain]\nmin = [0, 0, 0]\n" +
+                          "max = [0.02, 0.02, 0.03]\n";
+  const std::string tank = R"([[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.02, 0.02, 0.03]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+)";
+  const auto held = [](const std::string& text) {
+    const auto before = bytes_held_by_thread();
+    Started s({"bed", text, {}});
+    for (int n = 0; n < 20; ++n) s.simulation.step();
+    return double(bytes_held_by_thread() - before);
+  };
+  const double more = held(bed + tank) - held(bed);
+  EXPECT_GT(more, 144.0 * 5 * sizeof(WallMemory));
+  EXPECT_LT(more, 0.2 * 5 * sizeof(WallMemory) * count);
+  const auto known = [](const std::string& text) {
+    const Config c = test::StageCase{"bed", text, {}}.config();
+    return CoupledSimulation(c, {}).scratch_bytes();
+  };
+  EXPECT_EQ(known(bed + tank).grains, known(bed).grains);
+  EXPECT_GT(known(bed + tank).near_walls, 5 * sizeof(WallMemory));
 }
 
 }  // namespace

@@ -164,11 +164,10 @@ TEST(Stages, WriteWhatTheyNameAndNothingElse) {
   // rare: least density and porosity, walls that turn drift away, drag that may be stiff; stores of bodies
   // and clumps are named as a whole
   const Names rare{"fluid_state fluid/compression", "porosity fluid/solid_factor", "repel fluid/drift",
-                   "interpolate fluid/drag_rate"};
+                   "interpolate fluid/drag_rate", "move_solids grains/wall_row"};
   for (const auto& [stage, fields] : named)
     for (const std::string& field : fields)
-      if (field.find("bod") != 0 && field.find("clumps/") != 0 && field.find("grains/wall_memory") != 0 &&
-          !rare.contains(stage + " " + field)) {
+      if (field.find("bod") != 0 && field.find("clumps/") != 0 && !rare.contains(stage + " " + field)) {
         EXPECT_TRUE(changed[stage].contains(field)) << stage << " never changed " << field;
       }
 }
@@ -242,17 +241,14 @@ TEST(Stages, ReadOfOtherParticlesOnlyWhatTheyNameAsNear) {
   }
 }
 
-/// As docs/architecture.md lists them: store by store; what grains remember of walls, which is as many fields
-/// as they may touch, as one.
+/// As docs/architecture.md lists them: store by store.
 std::string list_of(AuditedRun& run, const Fields& fields) {
   std::string out;
   for (const Store* store : run.stepper().stores()) {
     std::string names;
     for (const FieldBase* field : fields) {
       if (!holds(store->fields(), *field)) continue;
-      const bool one_of_many = field->name.starts_with("wall_memory_");
-      if (!one_of_many || field->name == "wall_memory_0")
-        names += " " + (one_of_many ? "wall_memory" : field->name);
+      names += " " + field->name;
     }
     if (!names.empty()) out += (out.empty() ? "" : "; ") + store->name + ":" + names;
   }
