@@ -403,6 +403,11 @@ E = 1e6
 [[clump]]
 name = "ball"
 spheres = [[1, 2, 3, 4]]
+drag = "clump"
+[[clump]]
+name = "marble"
+spheres = [[1, 2, 3, 4]]
+drag = "members"
 )" + rest;
 }
 std::string clump(const std::string& name, const std::string& spheres, const std::string& drag) {
@@ -425,10 +430,27 @@ on = "grains"
     auto s = started(c);
     run_until(*s, 0.3);
     double of_spheres = 0;
-    for (const ClumpSphere& sphere : c.grain.clumps[1].shape.spheres) of_spheres += 2 * sphere[3];
+    for (const ClumpSphere& sphere : c.grain.clumps[2].shape.spheres) of_spheres += 2 * sphere[3];
     EXPECT_GT(of_spheres, 1.5);
     const double K = 3 * M_PI * 0.1 * d * (drag == "clump" ? 1 : of_spheres);
     EXPECT_NEAR(vector(of_clumps<3>(*s, "velocity")[0]).z / (-a * mass / K), 1, 0.01) << drag;
+  }
+}
+
+TEST(Clump, OfOneSphereHasTheDragOfAGrain) {
+  std::vector<Vec3d> v, w;
+  for (const std::string of : {"", "clump = \"ball\"\n", "clump = \"marble\"\n"}) {
+    auto s = started(config_of(at_rest("[[grain.fill]]\npositions = [[0.031, 0.03, 0.029]]\n" + of +
+                                           "velocity = [0.05, 0.01, 0]\nspin = [0, 10, 0]\n",
+                                       false)));
+    run_until(*s, 0.01);
+    const HostStore grains = s->snapshot("grains");
+    v.push_back(vectors(grains, "velocity")[0]), w.push_back(vectors(grains, "angular_velocity")[0]);
+  }
+  ASSERT_LT(norm(v[0]), 0.9 * std::hypot(0.05, 0.01));
+  for (const int clump : {1, 2}) {
+    EXPECT_LT(norm(v[clump] - v[0]), tolerance(1e-12, 1e-6, 1e-5) * norm(v[0])) << clump;
+    EXPECT_LT(norm(w[clump] - w[0]), tolerance(1e-12, 1e-6, 1e-5) * norm(w[0])) << clump;
   }
 }
 
@@ -439,7 +461,7 @@ velocity = [0.02, 0, 0.01]
 clump = "drop"
 orientation = [20, 50, 0]
 )"));
-  ASSERT_GT(norm(c.grain.clumps[1].shape.offset), 0.01) << "its spheres' centre is not that of its mass";
+  ASSERT_GT(norm(c.grain.clumps[2].shape.offset), 0.01) << "its spheres' centre is not that of its mass";
   auto s = started(c);
   run_until(*s, 0.02);
   const double k = 18 * 0.1 / (2500 * 0.004 * 0.004);  // 1/s
