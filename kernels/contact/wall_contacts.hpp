@@ -91,7 +91,7 @@ class SurfaceContacts {
     if (Kinds::kTracked && view.beyond(walls, farthest))
       return;  // for other kinds the closest point costs no more than this test
     MeshSearch search(merge);
-    if (view.surface.kind == SurfaceKind::mesh &&
+    if (view.surface.kind == SurfaceKind::mesh && walls.meshes[view.surface.first].fine(radius) &&
         !(reach > radius)) {  // what has been touched is never hidden
       search.hides = 1 - kSame;
       search.near = last_triangle(s);

@@ -33,18 +33,21 @@ struct MeshView {
   /// Of a feature: a triangle to which it belongs.
   BL_HD static std::uint32_t triangle_of(std::uint32_t feature) { return feature / 7; }
 
+  /// Whether it pays to find the nearest point first.
+  BL_HD bool fine(double reach) const { return reach > 5 * edge; }
+
   /// f(normal, signed distance, feature) for every closest point no farther than `reach` (m) from x. Behind
   /// the surface nothing is hidden.
   template <class F>
   BL_HD void each_closest_point(const Vec3d& x, double reach, const MeshSearch& search, F&& f) const {
-    if (search.hides >= 0 && reach > 5 * edge) {  // else to find the nearest first costs more than it saves
+    Front front;
+    if (search.hides >= 0) {
       const Nearest first = nearest_within(x, reach, search.near);
       if (first.triangle == kNone) return;
       if (dot(x - first.at.point, outward(first.triangle, first.at)) > 0)
-        return each_before(first, x, reach, search.hides * std::sqrt(first.at.distance2), search.merge, f);
+        front = before(first, x, search.hides * std::sqrt(first.at.distance2));
     }
-    walk([&](const MeshNode& node) { return node.distance2(x) <= reach * reach; },
-         [&](std::uint32_t t) { closest(t, x, reach, search.merge, f); });
+    each_closest_point(front, x, reach, search.merge, f);
   }
   /// As each_closest_point, on both sides of the surface, but for what the nearest point hides: all behind
   /// the plane through it, square to the way there, or before that plane by less than `flat` (m). Other
@@ -52,7 +55,7 @@ struct MeshView {
   template <class F>
   BL_HD void each_exposed_point(const Vec3d& x, double reach, double merge, double flat, F&& f) const {
     const Nearest first = nearest_within(x, reach, kNone);
-    if (first.triangle != kNone) each_before(first, x, reach, flat, merge, f);
+    if (first.triangle != kNone) each_closest_point(before(first, x, flat), x, reach, merge, f);
   }
   /// Whether any of it is within `reach` (m) of x.
   BL_HD bool within(const Vec3d& x, double reach) const {
@@ -96,19 +99,30 @@ struct MeshView {
     walk([&](const MeshNode& node) { return node.distance2(x) < first.at.distance2; }, meet);
     return first;
   }
-  /// The closest points in leaves that hold the nearest one, or reach before the plane through it by more
-  /// than `flat` (m).
+  /// What the nearest point does not hide: boxes that hold it, or reach before a plane.
+  struct Front {
+    bool all = true;
+    double distance2 = 0;  ///< of the nearest point, m2
+    Vec3d towards;         ///< unit normal of the plane
+    double plane = 0;      ///< its place along that, m
+    BL_HD bool shows(const MeshNode& node, double d2) const {
+      return all || d2 <= distance2 || node.extent(towards) > plane;
+    }
+  };
+  /// flat: how far before the nearest point, m.
+  BL_HD Front before(const Nearest& first, const Vec3d& x, double flat) const {
+    const double d2 = first.at.distance2;
+    Front front{.all = false, .distance2 = (1 + 1e-9) * d2};  // round-off must not lose it
+    front.towards = d2 > 0 ? (x - first.at.point) * (1 / std::sqrt(d2)) : unit_normal(first.triangle);
+    front.plane = dot(first.at.point, front.towards) + flat;
+    return front;
+  }
   template <class F>
-  BL_HD void each_before(const Nearest& first, const Vec3d& x, double reach, double flat, double merge,
-                         F& f) const {
-    const double distance2 = (1 + 1e-9) * first.at.distance2;  // round-off must not lose it
-    const Vec3d towards = first.at.distance2 > 0 ? (x - first.at.point) * (1 / std::sqrt(first.at.distance2))
-                                                 : unit_normal(first.triangle);
-    const double plane = dot(first.at.point, towards) + flat;
+  BL_HD void each_closest_point(const Front& front, const Vec3d& x, double reach, double merge, F& f) const {
     walk(
         [&](const MeshNode& node) {
           const double d2 = node.distance2(x);
-          return d2 <= distance2 || (d2 <= reach * reach && node.extent(towards) > plane);
+          return d2 <= reach * reach && front.shows(node, d2);
         },
         [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
   }

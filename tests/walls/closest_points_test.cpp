@@ -274,7 +274,7 @@ TEST(MeshContacts, AreThoseOfAllTrianglesWithinReach) {
   std::array<WallMemory*, kMostWallContacts> slots;
   for (std::size_t k = 0; k < last.size(); ++k) slots[k] = &last[k];
   int several = 0;
-  for (const TriangleSoup& soup : {rough, ball(3), l_prism(), cube()}) {
+  for (const TriangleSoup& soup : {rough, ball(3), l_prism(), test::cube()}) {
     const ShapePtr shape = random.placed(std::make_shared<TriangleMesh>(soup, "mesh"));
     const ClosestPoints points(shape);
     const SurfaceSet walls = points.walls.view();
