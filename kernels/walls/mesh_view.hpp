@@ -112,7 +112,9 @@ struct MeshView {
   /// flat: how far before the nearest point, m.
   BL_HD Front before(const Nearest& first, const Vec3d& x, double flat) const {
     const double d2 = first.at.distance2;
-    Front front{.all = false, .distance2 = (1 + 1e-9) * d2};  // round-off must not lose it
+    Front front;
+    front.all = false;
+    front.distance2 = (1 + 1e-9) * d2;  // round-off must not lose it
     front.towards = d2 > 0 ? (x - first.at.point) * (1 / std::sqrt(d2)) : unit_normal(first.triangle);
     front.plane = dot(first.at.point, front.towards) + flat;
     return front;
