@@ -344,8 +344,7 @@ void describe_output(Parameters& p, OutputConfig& o) {
     {.meaning =
          "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
          "materials and sizes, and spectra_peaks.csv: their peak elastic energies and normal forces; with "
-         "the "
-         "columns of out.energy"});
+         "the columns of out.energy"});
   if (o.spectra || p.everything()) {
     p("out.spectra_bins", &o.spectra_bins,
       {.meaning = "bins of the spectra a decade", .range = within(5, 50)});

@@ -273,7 +273,7 @@ TEST(MeshContacts, AreThoseOfAllTrianglesWithinReach) {
   std::array<WallMemory, kMostWallContacts> last;
   std::array<WallMemory*, kMostWallContacts> slots;
   for (std::size_t k = 0; k < last.size(); ++k) slots[k] = &last[k];
-  int several = 0;
+  int several = 0, fine = 0;
   for (const TriangleSoup& soup : {rough, ball(3), l_prism(), test::cube()}) {
     const ShapePtr shape = random.placed(std::make_shared<TriangleMesh>(soup, "mesh"));
     const ClosestPoints points(shape);
@@ -300,10 +300,12 @@ TEST(MeshContacts, AreThoseOfAllTrianglesWithinReach) {
         }
         remembered = Index(std::min(all.size(), kMostWallContacts));
         several += all.size() > 1;
+        fine += walls.meshes[0].fine(R) && off > 0;
       }
     }
   }
   EXPECT_GT(several, 100);
+  EXPECT_GT(fine, 300) << "where the nearest point is found first";
 }
 
 /// An outlet takes what lies in it.
